@@ -136,6 +136,24 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
     page.get_by_text(re.compile(r"You predicted c: \w+")).wait_for()  # which one c is, your number says
 
 
+def test_a_self_check_saves_the_program_that_it_checks(page: Page, folder: Path, address: str) -> None:
+    notebook = folder / TOP / "exercises/patterns/patterns.ipynb"
+    content = nbformat.read(notebook, as_version=4)
+    cells = [cell for cell in content.cells if cell.id in ("solution", "self-check")]
+    cells.insert(1, new_code_cell("mark = 'edited'"))
+    nbformat.write(new_notebook(cells=cells, metadata=content.metadata), notebook)
+    page.goto(address.replace("start_here.ipynb", "exercises/patterns/patterns.ipynb") + "&reset")
+    page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
+    shown = page.get_by_label("patterns.ipynb")
+    shown.get_by_text("mark = ").click()
+    page.keyboard.press("End")
+    page.keyboard.type("  # not saved yet")
+    page.get_by_role("menuitem", name="Run", exact=True).click()
+    page.get_by_text("Run All Cells", exact=True).click()
+    page.get_by_text("is saved with the program that was checked").wait_for()
+    assert "not saved yet" in notebook.read_text()
+
+
 def seen(page: Page) -> np.ndarray:
     """The picture of the robot as it is now, (height, width, 3)."""
     screenshot = page.locator(PICTURE).screenshot()
