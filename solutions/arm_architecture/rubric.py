@@ -68,8 +68,8 @@ CRITERIA = (
         on_links(
             "every link says what harm it can do to a person or a thing, and every link that moves something stops it "
             "when the link fails",
-            or_none="a function that must always work depends on an ordinary program, network or response (safety-rated "
-            "ones count as a wire)",
+            or_none="a function that must always work depends on an ordinary program, network or response "
+            "(safety-rated ones count as a wire)",
         ),
     ),
 )

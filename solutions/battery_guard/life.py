@@ -45,7 +45,10 @@ _WAIT_FOR_BATTERY = (
     "single spin is not enough, and ignored messages do not count."
 )
 _WAIT_FOR_SERVER = "Check server_is_ready() for at most 5 s, then print a line on stderr and return 1."
-_WAIT_NO_LONGER = "Wait at most 5 s for the result after the cancel, even if feedback still comes; then print a line and return 4."
+_WAIT_NO_LONGER = (
+    "Wait at most 5 s for the result after the cancel, even if feedback still comes; then print a line and "
+    "return 4."
+)
 
 
 class Low(NamedTuple):
