@@ -91,7 +91,9 @@ def on_refusing(call: Call) -> str:
         return "Nothing was switched off, but success is true: set response.success = False, which fits your message."
     if cause := why_nothing_is_heard(call.run, "robot_state"):
         return f"{cause} Without it the node cannot know that the robot walks."
-    return "If data is false and the last robot_state.mode is WALKING, return success false before you publish anything."
+    return (
+        "If data is false and the last robot_state.mode is WALKING, set success to false and publish nothing."
+    )
 
 
 def _had_power(call: Call, t: float) -> bool | None:
