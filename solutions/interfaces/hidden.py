@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks."""
+"""The hidden checks, which only the instructor's grading runs."""
 
 from __future__ import annotations
 

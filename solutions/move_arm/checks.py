@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 

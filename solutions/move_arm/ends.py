@@ -87,8 +87,8 @@ def misses(goal: Goal) -> str | None:
     )
     expect(
         plan.end - ANSWER_DELAY <= result.t <= plan.end + ARRIVAL_TIME + REACTION_TIME,
-        expected="the goal to end 1 s after its last point was due",
-        observed=f"it ended {result.t - plan.end:+.1f} s after that",
+        expected=f"the goal to end 1 s after its last point was due at {plan.end:.1f} s",
+        observed=f"it ended {abs(result.t - plan.end):.1f} s {'after' if result.t > plan.end else 'before'} that time",
         help="Wait until the last point's time_from_start is over. Then wait at most 1 s for every joint to be within "
         "goal_tolerance.",
         at=result.t,

@@ -15,9 +15,7 @@ from .objections import is_sound
 from .truth import plan_of, worst_at
 
 PATH_TOLERANCE = 0.5  # rad
-UNCERTAIN = (
-    0.1  # rad below PATH_TOLERANCE, where it is uncertain whether a server sees a joint off its trajectory
-)
+UNCERTAIN = 0.1  # rad below PATH_TOLERANCE, where a server may or may not abort
 MEASUREMENT_SLACK = 0.02  # rad, as a server's last joint_states may differ from the simulator's positions
 SURE_ARRIVAL_TIME = (
     0.6 * ARRIVAL_TIME

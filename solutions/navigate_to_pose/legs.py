@@ -13,9 +13,7 @@ from ros_runtime.angles import wrap
 
 UNDER_WAY_DISTANCE = 0.3  # m; a robot that is farther from its goal is under way
 MIN_LEG = 1.0  # m; on a shorter leg the robot has no time in which it only walks
-DETOUR_ANGLE = (
-    0.6  # rad between heading and goal, more than the task's 0.5, so that every server must notice it
-)
+DETOUR_ANGLE = 0.6  # rad between heading and goal, more than the task's 0.5
 
 
 @dataclass(frozen=True)

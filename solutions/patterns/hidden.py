@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks: the other six situations."""
+"""The hidden checks, which only the instructor's grading runs: the other six situations."""
 
 from __future__ import annotations
 

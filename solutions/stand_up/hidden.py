@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks."""
+"""The hidden checks, which only the instructor's grading runs."""
 
 from __future__ import annotations
 
@@ -13,9 +13,7 @@ from autograder.classroom.hidden_checks import standard_hidden
 from . import checks, model
 from .checks import CROUCH, crouching, played
 
-LEAN_DURATION = (
-    8.0  # s for which somebody leans on the robot, longer than a goal may take to end after a cancel
-)
+LEAN_DURATION = 8.0  # s, longer than a goal may take to end after a cancel
 STAY_TIME = 2.0  # s after a goal's end, in which the pelvis must keep its height
 
 

@@ -33,7 +33,7 @@ from .truth import EARLY, GAIN, HEIGHT_SLACK, LATE, RISEN, STANCE, TIME_LIMIT
 SHIFTING, RISING, SETTLING = PHASES = ("shifting", "rising", "settling")
 ON_ITS_WAY = 1.0  # s for messages of the robot to arrive
 AT_ONCE_TIME = 2.5  # s; the task says 2 s
-SETTLED = 0.40, 0.10  # s before the result; the robot must be settled between them, the task says for 0.5 s
+SETTLED = 0.40, 0.10  # s before the result, between which the robot must be settled; the task says for 0.5 s
 MIN_UNEVEN_TIME = 0.5  # s; shorter times of uneven loads are not checked
 NOTICE_TIME = 0.2  # s of uneven loads, in which a server may still succeed
 EVEN_TIME = 0.15  # s; the task forbids rising before 0.3 s of even loads

@@ -152,7 +152,7 @@ def test_a_build_that_took_too_much_memory_says_so() -> None:
 
 
 def test_a_build_that_never_got_a_processor_is_nobodys_failure() -> None:
-    with pytest.raises(CannotBeJudged, match="the build said nothing"):
+    with pytest.raises(CannotBeJudged, match="the build printed no report"):
         require_built(built(usage(3.0)))
 
 
