@@ -37,7 +37,7 @@ never_waits = answers_from_memory(SERVICE, _knowledge, clause=4)
 
 @obligation(1, 3, of=calls(SERVICE), see="02_services#battery-rules")
 def repeats_the_last_message(call: Call) -> str | None:
-    """Available is true, and battery equals the last battery_state that the node received, in every field"""
+    """The response has available true, and a battery that equals the last battery_state in every field"""
     known = known_messages(call, BATTERY)
     if not known:
         return None

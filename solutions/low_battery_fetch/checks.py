@@ -112,7 +112,7 @@ new_goal_preempts_the_old = check_of(
 )
 gives_up_before_the_grasp = once_it_sets_out(
     model.stops_in_time,
-    title="If the battery gets low before the grasp, the child is canceled and ends, the robot goes home, fetch is "
+    title="If the battery gets low before the grasp, the child is canceled; then the robot goes home, and fetch is "
     "ABORTED",
     points=3,
     on=TO_THE_TABLE,
