@@ -1,3 +1,3 @@
-"""Chapter 11: the links between the nodes of a six-joint arm, designed and argued; a person marks it."""
+"""Chapter 11: design the links between the nodes of a six-joint arm, with reasons; marked by a person."""
 
 FILES = ("arm_architecture.txt",)

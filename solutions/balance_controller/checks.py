@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ ALL_OR_NONE = without_robot(
     *(["ask"], ["set_each", {"max_torque": 5000.0}], ["settle"]),
 )
 AT_START = {"kp_pitch": 310.0, "kd_roll": 41.5}
-# It has a robot, which notices a busy machine; on such a machine Python takes seconds to end.
+# This scenario starts a robot because the robot detects an overloaded machine, where Python takes seconds to exit.
 START = in_order(
     *(["ask"], ["settle"]), parameters=AT_START, latched=True, interrupt=True, started_with=AT_START
 )
@@ -45,13 +45,13 @@ of_sets = partial(check_of, on=SETS)
 server_appears = of_sets(model.offers_its_parameters)
 declares_the_robots_gains = of_sets(
     model.has_its_gains,
-    title="The five parameters are doubles, and their defaults are the robot's own gains",
+    title="The five parameters are doubles, with the robot's own gains as defaults",
     needs=server_appears,
 )
 describes_its_parameters = of_sets(model.describes_each, needs=server_appears)
 publishes_what_it_accepted = of_sets(
     [model.accepts_the_table, model.publishes_them_in_time],
-    title="After an accepted set, balance_gains has all five gains as they are then",
+    title="After an accepted set, all five current gains are published on balance_gains",
     points=2,
     needs=declares_the_robots_gains,
     see=TWO_CALLBACKS,
@@ -59,14 +59,14 @@ publishes_what_it_accepted = of_sets(
 publishes_once = of_sets(model.one_message_each, points=2, needs=publishes_what_it_accepted)
 refuses_bad_gains = check_of(
     [model.refuses_weak_gains, model.refuses_limits, model.refuses_negative_gains, model.gives_a_reason],
-    title="A gain that is negative, or too weak to hold the trunk, is refused with a reason",
+    title="A gain that is negative, or too small to hold the trunk, is rejected with a reason",
     points=2,
     on=REFUSALS,
     needs=server_appears,
     see=TWO_CALLBACKS,
 )
 says_nothing_of_refused_gains = check_of(
-    [model.says_nothing_when_it_refuses, model.accepts_the_table, model.one_message_each],
+    [model.publishes_nothing_for_rejected_sets, model.accepts_the_table, model.one_message_each],
     on=REFUSALS,
     needs=[publishes_once, refuses_bad_gains],
 )
@@ -75,12 +75,12 @@ sets_all_or_none = check_of(
         model.refuses_negative_gains,
         model.refuses_weak_gains,
         model.gives_a_reason,
-        model.says_nothing_when_it_refuses,
+        model.publishes_nothing_for_rejected_sets,
         model.has_what_it_accepted,
         model.accepts_the_table,
         model.publishes_only_what_was_accepted,
     ],
-    title="Of an atomic set with one bad gain nothing is kept, published or applied later",
+    title="If one gain of an atomic set is invalid, none of its gains is kept, published or applied later",
     points=2,
     on=ALL_OR_NONE,
     needs=says_nothing_of_refused_gains,
@@ -96,7 +96,7 @@ publishes_at_the_start = check_of(
 )
 refuses_a_bad_start = check_of(
     model.refuses_to_start,
-    title="Started with a bad gain, it ends with status 1 and a line that says why",
+    title="Started with an invalid gain, it exits with status 1 and a line that says why",
     points=2,
     on=WEAK_START,
     needs=server_appears,

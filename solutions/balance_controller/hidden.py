@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks."""
+"""The hidden checks, which only the instructor's grading runs."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model
 from .checks import without_robot
-from .gains import ABOVE, HIGHEST, NAMES, TOPPLE, sound_gains
+from .gains import ABOVE, HIGHEST, MIN_KP, NAMES, sound_gains
 
 KP, KD = ("kp_pitch", "kp_roll"), ("kd_pitch", "kd_roll")
 Steps = list[list[Any]]
 
 
 def _bad_values(random: Random) -> list[dict[str, Any]]:
-    """Draw values of each kind that is refused."""
+    """Draw values with each fault for which a value is rejected."""
     return [
         {random.choice(KP): round(random.uniform(0.0, 50.99), 2)},
         {random.choice(NAMES): -random.choice((0.001, round(random.uniform(0.5, 900.0), 2)))},
@@ -30,7 +30,7 @@ def _bad_values(random: Random) -> list[dict[str, Any]]:
 
 
 def _refused_steps(random: Random) -> Steps:
-    """Ask for each bad value alone, beside a good one, or among good ones, first, last or between them."""
+    """Return steps that set each invalid value, alone or together with valid ones in any order."""
     steps: Steps = []
     for bad in random.sample(found := _bad_values(random), len(found)):
         sound = sound_gains(random)
@@ -45,7 +45,7 @@ def _refused_steps(random: Random) -> Steps:
 
 
 def _steps(random: Random) -> dict[str, Any]:
-    """Set good gains and bad ones in any order, slowly and in a row, up to both ends of the table, and listen late."""
+    """Set valid and invalid gains in any order, slowly and quickly, up to both ends of the table; subscribe late."""
     one_by_one, row = sound_gains(random), [sound_gains(random) for _ in range(4)]
     same = random.choice(NAMES)
     lowest = {name: round(random.uniform(51.001, 60.0), 3) for name in KP} | dict.fromkeys(KD, 0.0)
@@ -59,7 +59,7 @@ def _steps(random: Random) -> dict[str, Any]:
         [["set_each", lowest], ["settle"], ["ask"], ["set_together", HIGHEST], ["settle"]],
         [["set_each", {name: gains[name]}] for gains in row for name in random.sample(NAMES, 1)],
         [
-            *(["settle"], ["set_together", {"kd_pitch": 41.0, "kp_roll": 340.0, "kp_pitch": TOPPLE}]),
+            *(["settle"], ["set_together", {"kd_pitch": 41.0, "kp_roll": 340.0, "kp_pitch": MIN_KP}]),
             *(["settle"], ["ask"], ["set_each", {"kd_roll": 45.0}], ["settle"]),
         ],
         [["set_each", {far: HIGHEST[far] + round(random.uniform(0.5, 900.0), 1)}], ["settle"], ["ask"]],
@@ -72,14 +72,14 @@ def _steps(random: Random) -> dict[str, Any]:
 
 
 def _any_push(random: Random) -> dict[str, Any]:
-    """Draw gains that hold the robot, and the direction of a push (10 N·s in odom)."""
+    """Draw gains that hold the robot upright, and the direction of a push (10 N·s in odom)."""
     heading = random.uniform(-math.pi, math.pi)
     push = ["push", 10.0 * math.cos(heading), 10.0 * math.sin(heading), 0.0]
     return {"steps": [["ask"], ["settle"], ["set_together", sound_gains(random)], ["settle"], push]}
 
 
 def _bad_start(number: int, values: dict[str, str]) -> Scenario:
-    """Return the scenario in which the program is started with one of these values, drawn with others than before."""
+    """Return the scenario that starts the program with one of these values; `number` chooses which."""
 
     def draw(random: Random) -> dict[str, Any]:
         names = random.sample(list(values), len(values))
@@ -103,46 +103,46 @@ refuses_in_any_order = partial(in_any_order, needs=checks.refuses_bad_gains)
 
 refuses_what_is_no_number = refuses_in_any_order(
     [model.refuses_no_numbers, model.gives_a_reason],
-    title="NaN and infinity are refused with a reason",
+    title="NaN and infinity are rejected with a reason",
     see="02_services#nan",
 )
 refuses_integers = refuses_in_any_order(
     [model.takes_no_integer_for_a_double, model.gives_a_reason],
-    title="An integer for a double is refused with a reason",
+    title="An integer for a double is rejected with a reason",
     see="10_parameters_and_balance#int-why",
 )
 refuses_the_limit_itself = refuses_in_any_order(
     [model.refuses_limits, model.refuses_weak_gains, model.refuses_negative_gains, model.gives_a_reason],
-    title="A kp of exactly 51 N·m/rad and a max_torque of 0 are refused, too",
+    title="A kp of exactly 51 N·m/rad and a max_torque of 0 are rejected, too",
     see=checks.TWO_CALLBACKS,
 )
 leaves_nothing_behind = in_any_order(
     [
-        model.says_nothing_when_it_refuses,
+        model.publishes_nothing_for_rejected_sets,
         model.has_what_it_accepted,
         model.publishes_only_what_was_accepted,
         model.keeps_the_last,
     ],
-    title="What is refused leaves nothing behind, not in the parameters, nor on the topic, nor for a late robot",
+    title="Rejected values appear neither in the parameters, nor on the topic, nor for a robot that subscribes later",
     needs=[checks.sets_all_or_none, checks.keeps_the_last_gains],
 )
 publishes_any_gains = in_any_order(
     [model.has_its_gains, model.accepts_the_table, model.publishes_them_in_time, model.one_message_each],
-    title="All that the table accepts is accepted and published, once for each set, also one that changes nothing",
+    title="All values within the table's limits are accepted; each set is published once, also if it changes nothing",
     points=2,
     needs=checks.publishes_once,
     see=checks.TWO_CALLBACKS,
 )
 refuses_every_bad_start = check_of(
     model.refuses_to_start,
-    title="Started with 51.0, NaN, an integer or a negative gain, it ends with status 1 and a line",
+    title="Started with 51.0, NaN, an integer or a negative gain, it exits with status 1 and a line that says why",
     points=2,
     on=BAD_STARTS,
     needs=checks.refuses_a_bad_start,
 )
 survives_any_push = check_of(
     [model.accepts_the_table, model.publishes_them_in_time, model.survives],
-    title="With other gains, and from any side, the robot survives a push of 10 N·s",
+    title="With other gains the robot survives a push of 10 N·s from any side",
     on=ANY_PUSH,
     needs=checks.survives_a_push,
 )

@@ -1,4 +1,4 @@
-"""What the node was asked to set, what it answered and published, and which gains it has then."""
+"""The requests to set parameters, the node's responses and messages, and the gains that it should then have."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _FIELDS = {
 
 @dataclass(frozen=True)
 class Change:
-    """One set: the values that were asked for together, what the node answered, and its gains before and after."""
+    """One set: the values in the request, the node's response, and its gains before and after."""
 
     call: Call
     values: Mapping[str, Any]
@@ -36,18 +36,18 @@ class Change:
 
     @property
     def faults(self) -> dict[str, str]:
-        """Why each value that has to be refused is, by its name."""
+        """The fault of each value that has to be rejected, by the gain's name."""
         return {name: fault for name, value in self.values.items() if (fault := fault_of(name, value))}
 
     @property
     def words(self) -> str:
-        """The values as people write them."""
+        """The values in words."""
         return in_words(self.values)
 
 
 @dataclass(frozen=True)
 class Batch:
-    """Sets that followed one another without a pause, and what was published from then on until the next ones."""
+    """Sets without a pause between them, and the messages from then on until the next batch."""
 
     run: Transcript
     changes: Sequence[Change]
@@ -61,20 +61,20 @@ class Batch:
 
 @dataclass(frozen=True)
 class Reading:
-    """A request for the values of all parameters, and the sets that had been answered by then."""
+    """A request for the values of all parameters, and the sets before it."""
 
     call: Call
     before: Sequence[Change]
 
     @property
     def parameters(self) -> dict[str, ParameterValue]:
-        """The values as the node answered; empty ones where it does not have them."""
+        """The values in the response; empty ones for parameters that the node does not have."""
         values = iter(self.call.response.values)
         return {name: next(values, ParameterValue()) for name in NAMES}
 
     @property
     def gains(self) -> dict[str, float]:
-        """The values as numbers; NaN where there is none."""
+        """The values as numbers; NaN for missing ones."""
         return {name: float(_value(value)) for name, value in self.parameters.items()}
 
 
@@ -87,7 +87,7 @@ def readings(run: Transcript) -> list[Reading]:
 
 
 def changes(run: Transcript) -> list[Change]:
-    """Return every set, in order: one for each parameter of a request, or one in all where it was atomic."""
+    """Return every set, in order: one for each parameter of a request, or one for a whole atomic request."""
     asked = [call for name in ("", "_atomically") for call in calls(f"{SERVICES}set_parameters{name}")(run)]
     gains, found = gains_at_first(run), []
     for call in sorted(asked, key=lambda call: call.sent.t):
@@ -100,25 +100,25 @@ def changes(run: Transcript) -> list[Change]:
 
 
 def gains_at_first(run: Transcript) -> Gains:
-    """Return the gains that the node said it had, the first time it was asked."""
+    """Return the gains in the node's first response to get_parameters."""
     for call in calls(f"{SERVICES}get_parameters")(run)[:1]:
         return Reading(call, ()).gains
-    raise unseen(run, "nobody asked for the gains")
+    raise unseen(run, "the gains were never read")
 
 
 def changes_before(run: Transcript, t: float) -> list[Change]:
-    """Return the sets that were answered by a moment (s)."""
+    """Return the sets whose responses came by a time (s)."""
     return [change for change in changes(run) if change.call.answered.t <= t]
 
 
 def gains_at(run: Transcript, t: float) -> Gains:
-    """Return the gains that the node should have at a moment (s), after all that it accepted."""
+    """Return the gains that the node should have at a time (s), after all accepted sets."""
     before = changes_before(run, t)
     return before[-1].after if before else gains_at_first(run)
 
 
 def batches(run: Transcript) -> list[Batch]:
-    """Return the sets in batches, each of which ends where nothing is set for longer than a message may take."""
+    """Return the sets in batches, separated by pauses longer than a message may take."""
     together: list[list[Change]] = []
     for change in changes(run):
         if not together or change.call.sent.t > together[-1][-1].call.answered.t + PUBLISH_TIME:
@@ -136,7 +136,8 @@ def _sets(call: Call) -> list[tuple[dict[str, Any], Any]]:
     asked = {each.name: _value(each.value) for each in call.request.parameters}
     if call.answer is None and any(fault_of(*item) for item in asked.items()):
         require_alive(
-            call.run, "Refuse by returning SetParametersResult(successful=False, reason=…); raise nothing."
+            call.run,
+            "To reject, return SetParametersResult(successful=False, reason=…); do not raise an exception.",
         )
     answer = call.response
     if hasattr(answer, "result"):
@@ -145,7 +146,7 @@ def _sets(call: Call) -> list[tuple[dict[str, Any], Any]]:
         len(answer.results) == len(asked),
         expected=f"{len(asked)} results, one for each parameter",
         observed=f"{len(answer.results)}",
-        help="Leave set_parameters to rclpy: it calls your callbacks and answers.",
+        help="Do not replace rclpy's set_parameters service: it calls your callbacks and sends the response.",
     )
     return [
         ({name: value}, result) for (name, value), result in zip(asked.items(), answer.results, strict=True)

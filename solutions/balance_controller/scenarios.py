@@ -1,4 +1,4 @@
-"""What is done to the parameters of a balance controller. No expected answers here: this runs in the arena."""
+"""The steps of scenarios for a balance_controller. No expected responses here: this runs in the arena."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from humanoid_interfaces.msg import BalanceGains
 NODE = "balance_controller"
 TOPIC = "balance_gains"
 NAMES = ["kp_pitch", "kd_pitch", "kp_roll", "kd_roll", "max_torque"]
-MATCHING = 3.0  # s for the publisher of the gains to be found
-SETTLED = 1.7  # s for what a set causes to arrive; longer than the model lets a message be on its way
-LATCHED_TIME = 10.0  # s for a latched message to arrive
-STANDING = 1.0  # s of the robot's time with new gains before a push
-AFTERMATH = 4.0  # s of it after a push
-GIVING_UP = 12.0  # s for a program to refuse what it is started with
+DISCOVERY_TIMEOUT = 3.0  # s for the publisher of the gains to be discovered
+SETTLE_TIME = 1.7  # s for the messages after a set to arrive; longer than the model allows for a message
+LATCHED_TIMEOUT = 10.0  # s for a latched message to arrive
+TIME_BEFORE_PUSH = 1.0  # s of the robot's time with new gains
+TIME_AFTER_PUSH = 4.0  # s of the robot's time
+EXIT_TIMEOUT = 12.0  # s for a program to exit when it is started with an invalid value
 
 
 def in_order(
@@ -32,10 +32,10 @@ def in_order(
     interrupt: bool = False,
     started_with: Mapping[str, float] | None = None,
 ) -> None:
-    """Set gains one by one or together, ask for them, push the robot, listen late; then press Ctrl-C.
+    """Set gains one by one or together, read them, push the robot, subscribe late; then send SIGINT.
 
-    `latched` is how the topic is listened to from before the node's start. `started_with` are the gains that the node
-    is started with, if not the usual ones: the model has to know.
+    `latched` is whether the subscription made before the node's start is transient local. `started_with` are the gains
+    with which the node is started, if not its defaults. The checks read them.
     """
     describe = stage.service(f"{NODE}/describe_parameters", DescribeParameters)
     get = stage.service(f"{NODE}/get_parameters", GetParameters)
@@ -43,18 +43,18 @@ def in_order(
     set_together = stage.service(f"{NODE}/set_parameters_atomically", SetParametersAtomically)
     heard = stage.listen(TOPIC, BalanceGains, latched=latched)
     stage.open()
-    if not stage.poll_until(lambda: heard.publishers, MATCHING):
+    if not stage.poll_until(lambda: heard.publishers, DISCOVERY_TIMEOUT):
         stage.mark("nobody publishes")
 
     def listen(listener: str) -> None:
         stage.mark(listener)
         late = stage.listen(TOPIC, BalanceGains, latched=True, as_=listener)
-        stage.wait_until(lambda: late.messages, LATCHED_TIME)
+        stage.wait_until(lambda: late.messages, LATCHED_TIMEOUT)
 
     def push(*impulse: float) -> None:
-        stage.robot.wait(STANDING)
+        stage.robot.wait(TIME_BEFORE_PUSH)
         stage.robot.push(impulse)
-        stage.robot.wait(AFTERMATH)
+        stage.robot.wait(TIME_AFTER_PUSH)
 
     carry_out(
         stage,
@@ -66,7 +66,7 @@ def in_order(
             "set_together": lambda values: set_together.call(
                 SetParametersAtomically.Request(parameters=_parameters(values))
             ),
-            "settle": lambda: stage.wait(SETTLED),
+            "settle": lambda: stage.wait(SETTLE_TIME),
             "wait": stage.wait,
             "listen": listen,
             "push": push,
@@ -77,11 +77,11 @@ def in_order(
 
 
 def start_with(stage: ClientStage, name: str, value: str) -> None:
-    """Start the program with a value of a parameter, as it is typed on the command line."""
+    """Start the program with the value of a parameter, as typed on the command line."""
     stage.start_program(["--ros-args", "-p", f"{name}:={value}", "--"])
-    stage.wait_until(stage.has_ended, GIVING_UP)
+    stage.wait_until(stage.has_ended, EXIT_TIMEOUT)
 
 
 def _parameters(values: Mapping[str, Any]) -> list[ParameterMsg]:
-    """Return a parameter for each value, an integer or a double as the value's Python type says."""
+    """Return a parameter for each value: an integer for an int, a double for a float."""
     return [Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]

@@ -1,4 +1,4 @@
-"""What a battery guard owes, computed from what happened to it: how it may end, when, and what it has to cancel."""
+"""What a battery guard has to do in one run: how and when it may exit, and when it has to cancel its goal."""
 
 from __future__ import annotations
 
@@ -34,24 +34,25 @@ BATTERY = "battery_state"
 ROBOT = "robot_state"
 LIMIT = 0.20
 AT_ONCE_TIME = 1.0  # s
-KNOWN = 1.0  # s after which a client surely knows what was published
-GRACE = 1.0  # s beyond a clause's limit for a request, on a busy machine
+DELIVERY_TIME = 1.0  # s after which a client has certainly received a message
+GRACE = 1.0  # s added to a clause's limit for a request, as the machine may be busy
 IS_LATCHED = (
-    f"{BATTERY} was published once, before your program began. A subscription gets that message only with "
+    f"{BATTERY} was published once, before your program started. A subscription receives that message only with "
     "QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)."
 )
 _WAIT_FOR_BATTERY = (
-    f"One spin is not enough, and a message that you ignore counts as none: spin until {BATTERY} has brought a "
-    "percentage from 0 to 1, at most 5 s, then print a line on stderr and return 1."
+    f"Spin until {BATTERY} has a percentage from 0 to 1, at most 5 s, then print a line on stderr and return 1. A "
+    "single spin is not enough, and ignored messages do not count."
 )
-_WAIT_FOR_SERVER = "Look at server_is_ready() for at most 5 s, then print a line on stderr and return 1."
+_WAIT_FOR_SERVER = "Check server_is_ready() for at most 5 s, then print a line on stderr and return 1."
 _WAIT_NO_LONGER = (
-    "Wait for the result at most 5 s after the cancel, then print a line and return 4: feedback may go on."
+    "Wait at most 5 s for the result after the cancel, even if feedback still comes; then print a line and "
+    "return 4."
 )
 
 
 class Low(NamedTuple):
-    """A time (s) in which the last percentage was below the limit, the first of them, and how many listened then."""
+    """A time span (s) with the percentage below the limit, the first level in it, and the subscriptions then."""
 
     since: float
     until: float
@@ -60,39 +61,39 @@ class Low(NamedTuple):
 
 
 def is_percentage(level: float) -> bool:
-    """Return whether a level of the battery is one at all."""
+    """Return whether a battery level is a valid percentage."""
     return 0.0 <= level <= 1.0
 
 
 @dataclass(frozen=True)
 class GuardLife(ClientLife):
-    """One run of a guard, with what the battery and the robot said meanwhile."""
+    """One run of a guard, with the messages of battery and robot during it."""
 
     action: ClassVar[str] = NAVIGATE
     pose_field: ClassVar[str] = "pose"
     end_in_time: ClassVar[str] = (
-        "Keep the last message of robot_state, with durability transient local, and look at it again after each "
-        "spin. Give each wait after the cancel a limit of 5 s, counted from its beginning: feedback may go on."
+        "Keep the last message of robot_state (durability transient local), and check it after each spin. Give each "
+        "wait after the cancel a timeout of 5 s from its start, even if feedback still comes."
     )
 
     @cached_property
     def goal(self) -> ScriptedGoal | None:
-        """The goal that it sent; None: none came."""
+        """The goal that it sent, or None."""
         return require_one_goal(self.run, NAVIGATE) if self.run.scripted_goals(NAVIGATE) else None
 
     @cached_property
     def levels(self) -> list[ev.MessagePublished]:
-        """The percentages, in order; of what came before its start, a latched topic keeps the last message."""
+        """The valid percentages, in order; of those before its start only the last, which a latched topic keeps."""
         return [event for event in self._heard_on(BATTERY) if is_percentage(event.message.percentage)]
 
     @property
     def ignored(self) -> list[ev.MessagePublished]:
-        """What was published on the battery's topic and is no percentage."""
+        """The battery messages without a valid percentage."""
         return [event for event in self._heard_on(BATTERY) if not is_percentage(event.message.percentage)]
 
     @cached_property
     def lows(self) -> list[Low]:
-        """When the last percentage was below the limit."""
+        """The times during which the last percentage was below the limit."""
         found: list[Low] = []
         ends = [*(event.t for event in self.levels[1:]), inf]
         for event, end in zip(self.levels, ends, strict=False):
@@ -106,7 +107,7 @@ class GuardLife(ClientLife):
         return found
 
     def stands_from(self, t: float) -> float:
-        """Return since when (s), at `t` or later, robot_state says that the robot stands; infinity: never."""
+        """Return when (s), at `t` or later, robot_state is first STANDING, or infinity."""
         modes = [(event.t, event.message.mode) for event in self._heard_on(ROBOT)]
         found = (
             max(since, t)
@@ -123,24 +124,24 @@ class GuardLife(ClientLife):
 
     @cached_property
     def called_off(self) -> float:
-        """When it first asked to cancel its goal because of the battery or Ctrl-C."""
+        """When (s) it first sent a cancel request because of the battery or Ctrl-C, or infinity."""
         asked = [cancel.received.t for cancel in self.goal.cancels] if self.goal else []
         why = min((cause.since for cause in self.reasons()), default=inf)
         return next((t for t in asked if t >= why), inf)
 
     @property
     def for_the_battery(self) -> bool:
-        """Whether it had to call the goal off because of the battery, and not only because of Ctrl-C."""
+        """Whether it had to cancel the goal because of the battery, not only because of Ctrl-C."""
         return any(cause.name == "battery" and cause.since <= self.called_off for cause in self.reasons())
 
-    # -- what it owes -------------------------------------------------------------------------------------------------
+    # -- what it has to do --------------------------------------------------------------------------------------------
 
     def causes(self) -> list[Cause]:
-        """Return what asks it to cancel its goal, each for one request."""
+        """Return the reasons to cancel its goal, each for one request."""
         return [replace(cause, once=True) for cause in super().causes()]
 
     def reasons(self) -> Iterator[Cause]:
-        """Yield what asks it to cancel its goal, but for silence; of several, only the first needs a request."""
+        """Yield the reasons to cancel its goal, except missing feedback; of several, only the first needs a request."""
         if self.goal is None or self.accepted == inf:
             return
         finished = self.goal.finished.t if self.goal.finished else inf
@@ -148,7 +149,7 @@ class GuardLife(ClientLife):
         found = [
             ("battery", self._fell(low), max(low.since, self.accepted), min(low.until, over))
             for low in self.lows
-            if low.until > self.goal.received.t - KNOWN
+            if low.until > self.goal.received.t - DELIVERY_TIME
         ]
         if self.interrupted < inf:
             found.append(("Ctrl-C", "you pressed Ctrl-C", self.interrupted, over))
@@ -172,22 +173,22 @@ class GuardLife(ClientLife):
         if not found and exited and exited.returncode == CANCELED and self.levels:
             level = self.levels[-1].message.percentage
             raise Failure(
-                expected=f"a goal: the percentage is {level:.4g}, which is not below {LIMIT:.2f}",
-                observed="exit status 4 without one",
+                expected=f"a goal, as the percentage is {level:.4g}, which is not below {LIMIT:.2f}",
+                observed="exit status 4 without a goal",
                 help=about_level(level),
                 at=exited.t,
             )
         if not found:
-            require_one_goal(self.run, NAVIGATE)  # says why none came
+            require_one_goal(self.run, NAVIGATE)  # raises, with the reason why no goal came
         return found
 
     def _missing_something(self) -> Iterator[End]:
-        """Yield the ends of a program that may have found no percentage, or no server, in its time."""
+        """Yield the ends of a program that may not have found a percentage, or a server, within its time."""
         started, offered = self.started, self.when(ev.ActionOffered)
         known = max(self.levels[0].t, started) if self.levels else inf
         for name, because, t, since, help in (
-            ("no percentage", f"no percentage came on {BATTERY}", known, started, _WAIT_FOR_BATTERY),
-            ("no server", f"nobody offers {NAVIGATE}", offered, known, _WAIT_FOR_SERVER),
+            ("no percentage", f"no valid percentage came on {BATTERY}", known, started, _WAIT_FOR_BATTERY),
+            ("no server", f"there is no server of {NAVIGATE}", offered, known, _WAIT_FOR_SERVER),
         ):
             earliest = started + SILENCE_LIMIT - FINDING
             if t > earliest:
@@ -196,7 +197,7 @@ class GuardLife(ClientLife):
                 yield End(NO_SERVER, name, because, started + SILENCE_LIMIT, earliest, latest, help)
 
     def _low_before(self) -> Iterator[End]:
-        """Yield the ends of a program that saw a low battery; it may look for the server all the same."""
+        """Yield the ends of a program that received a low battery level; it may still look for the server."""
         started = self.run.first(ev.NodeStarted)
         for low in self.lows:
             since = max(low.since, started.t if started else low.since)
@@ -206,12 +207,12 @@ class GuardLife(ClientLife):
             yield End(CANCELED, "low before", because, since, since, found + FINDING + LEAVING, help)
 
     def _after_the_acceptance(self) -> Iterator[tuple[End, bool]]:
-        """Yield each end of an accepted goal's guard, if nothing else came first, and whether it is certain."""
+        """Yield each possible end after an accepted goal, and whether it is certain."""
         assert self.goal is not None
         called_off, finished, result = self.called_off, self.goal.finished, self.result
         for end, is_certain in self._in_silence():
             yield end, is_certain and end.at < called_off
-        waits_until = inf  # when it surely waits for nothing any more
+        waits_until = inf  # until when it may wait
         if called_off < inf:
             by_keyboard = not self.for_the_battery
             over = called_off + SILENCE_LIMIT
@@ -219,7 +220,7 @@ class GuardLife(ClientLife):
             earliest = called_off + (SURELY_WAITED if by_keyboard else SILENCE_LIMIT - ORDER_MARGIN)
             is_refused = any(cancel.reply and not cancel.reply.canceling for cancel in self.goal.cancels)
             may_go_on = is_refused and not by_keyboard
-            because = f"the goal had not ended {SILENCE_LIMIT:g} s after the request to cancel it"
+            because = f"the goal had no result {SILENCE_LIMIT:g} s after the cancel request"
             latest = waits_until + LEAVES_SOON
             yield (
                 End(CANCELED, "no CANCELED", because, earliest, earliest, latest, _WAIT_NO_LONGER),
@@ -231,14 +232,14 @@ class GuardLife(ClientLife):
             yield self._by_its_result(finished.status, called_off < result), True
 
     def _by_its_result(self, status: int, is_called_off: bool) -> End:
-        """Return the end of a program that got the result; after a cancel it waits for STANDING, too."""
+        """Return the end of a program that received the result; after a cancel it waits for STANDING, too."""
         t = self.result
         end = by_status(status, t)
         if end.status != CANCELED:
             return end
         stands = self.stands_from(t)
         name = "no STANDING" if is_called_off and stands > t + SILENCE_LIMIT else end.name
-        latest = t + SILENCE_LIMIT + LEAVES_SOON  # so long it may wait for STANDING in any case
+        latest = t + SILENCE_LIMIT + LEAVES_SOON  # it may wait this long for STANDING in any case
         earliest = end.earliest
         if is_called_off and self.for_the_battery:
             earliest = min(stands, t + SILENCE_LIMIT - ORDER_MARGIN)
@@ -246,20 +247,20 @@ class GuardLife(ClientLife):
         return replace(end, name=name, earliest=earliest, latest=latest)
 
     def left_early(self, end: End, exited: ev.NodeExited) -> Failure:
-        """Return the failure of a program that ended before it could know that it may end like this."""
+        """Return the failure of a program that exited before it could know that this end was right."""
         if self.result > exited.t or end.status != CANCELED:
             return super().left_early(end, exited)
         return Failure(
-            expected="the end only when the goal is CANCELED and the robot stands",
-            observed=f"it ended {exited.t - self.result:.1f} s after CANCELED, and robot_state did not say STANDING",
-            help="The result tells how the goal ended; what the legs do, robot_state tells. Spin until its last mode "
-            "is RobotState.STANDING, at most 5 s. That it stood before the walk does not count.",
+            expected="the program to exit only when the goal is CANCELED and the robot stands",
+            observed=f"it exited {exited.t - self.result:.1f} s after CANCELED, before robot_state was STANDING",
+            help="CANCELED does not mean that the robot stands. Spin until the last mode in robot_state is "
+            "RobotState.STANDING, at most 5 s. A STANDING from before the walk does not count.",
             at=exited.t,
         )
 
 
 def guards(run: Transcript) -> list[GuardLife]:
-    """Return the one life of the guard, whose server, battery, robot and person did what the scenario says."""
+    """Return the one run of the guard; the record must have every message that the scenario published."""
     require_record(run, NAVIGATE)
     before = {BATTERY: run.params["battery"] is not None, ROBOT: True}
     for topic, verb in ((BATTERY, "battery"), (ROBOT, "robot")):
@@ -270,19 +271,22 @@ def guards(run: Transcript) -> list[GuardLife]:
 
 
 def about_level(level: float) -> str:
-    """Return what to do about a program that takes this level of the battery for what it is not."""
+    """Return advice on a program that misinterprets this battery level."""
     if math.isnan(level):
-        return "NaN says that nothing is known: it is neither low nor high. `not percentage >= 0.20` is true of it."
+        return (
+            "NaN means that the level is unknown, neither low nor high: test for it with math.isnan(). For NaN "
+            "`not percentage >= 0.20` is true."
+        )
     if level > 1.0:
         return (
-            "BatteryState.percentage runs from 0 to 1, so a publisher that counts to 100 breaks the convention. Do not "
-            "guess what it means (1.0 would be 1 % or 100 %): ignore it, and warn."
+            "BatteryState.percentage is from 0 to 1, so a publisher with values up to 100 breaks the convention. Do "
+            "not guess what it means (1.0 could be 1 % or 100 %): ignore the message, and log a warning."
         )
     if level < 0.0:
-        return "A charge below 0 does not exist: ignore it, and warn."
+        return "A charge below 0 is invalid: ignore the message, and log a warning."
     if level == 0.0:
-        return "0.0 is a percentage, an empty battery: only NaN says that nothing is known."
+        return "0.0 is a valid percentage of an empty battery. Only NaN means that the level is unknown."
     return (
-        "Compare the number as it comes, percentage < 0.20. As a float32, 0.20 is 0.200000003: not below. Rounding it "
-        "first, or a tolerance, makes another limit of it."
+        "Compare the number unchanged: percentage < 0.20. As a float32, 0.20 is 0.200000003, which is not below the "
+        "limit. Rounding or a tolerance would change the limit."
     )

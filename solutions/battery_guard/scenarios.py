@@ -1,4 +1,4 @@
-"""A scripted navigation, battery and robot, and Ctrl-C: what they do is data, which the checks write or draw."""
+"""Scenarios with a scripted navigation server, battery and robot, and with Ctrl-C; the checks supply the scripts."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from humanoid_interfaces.msg import RobotState
 def in_order(
     stage: ClientStage, arguments: Sequence[str], server: Server | None, battery: float | None, steps: Steps
 ) -> None:
-    """Start the program beside a robot that stands, carry out the steps, and await the program's end.
+    """Start the program while the robot stands, carry out the steps, and wait until the program has exited.
 
-    The battery's level (None: nothing) is published once before it starts. `server` offers `navigate_to_pose`: from
-    the start, or when a step says so; None: nobody does.
+    The battery's level (None: no message) is published once before it starts. `server` is the script of the server of
+    `navigate_to_pose`, which is there from the start or from a step on; None: there is no server.
     """
     levels = stage.offer_topic("battery_state", BatteryState, latched=True)
     modes = stage.offer_topic("robot_state", RobotState, latched=True)

@@ -1,1 +1,1 @@
-"""Chapter 2: a service that answers with the last battery_state."""
+"""Chapter 2: a service that responds with the last battery_state."""

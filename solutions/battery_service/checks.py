@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ server_appears = standard.server_appears("get_battery_status", on=INTERRUPT, cla
 
 answers_with_the_last_message = check_of(
     model.repeats_the_last_message,
-    title="It answers with the robot's last battery_state, field by field",
+    title="The response has the robot's last battery_state in every field",
     on=ASK_ONCE,
     needs=server_appears,
 )
 
 says_when_it_knows_nothing = check_of(
     [model.answers_in_time, model.never_waits, model.says_when_it_knows_nothing],
-    title="Before the first message it answers at once, with available: false and every number NaN",
+    title="Before the first message it responds at once, with available false and every number NaN",
     points=2,
     on=UNPLUGGED,
     needs=server_appears,
@@ -37,7 +37,7 @@ says_when_it_knows_nothing = check_of(
 
 follows_the_battery = check_of(
     model.repeats_the_last_message,
-    title="When the charge changes, so does the answer",
+    title="When the charge changes, the response changes, too",
     on=LEVELS,
     needs=answers_with_the_last_message,
 )

@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks."""
+"""The hidden checks, which only the instructor's grading runs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .checks import UNPLUGGED, UNPLUGGED_ROBOT
 
 
 def _steps(random: Random) -> dict[str, Any]:
-    """Ask before the first message, then in any order: at levels, in silences, many at once, while it changes."""
+    """Call the service before the first message, then in any order: at various levels, in pauses, eight at once."""
 
     def level() -> float:
         return round(random.uniform(0.0, 1.0), 4)
@@ -26,7 +26,11 @@ def _steps(random: Random) -> dict[str, Any]:
             *(["unplug"], ["set_battery", level()], ["wait", round(random.uniform(11.0, 15.0), 1)]),
             *(["ask", 1], ["plug_in"]),
         ],
-        [["set_battery", 0.0], ["let_publish", 2], ["ask", 1]],  # the charge stays, the rest does not
+        [
+            ["set_battery", 0.0],
+            ["let_publish", 2],
+            ["ask", 1],
+        ],  # then only fields other than the charge change
         [["measure_charge", False], ["let_publish", 1], ["ask", 1], ["measure_charge", True]],
         [
             ["set_clock", -round(random.uniform(60.0, 4000.0))],
@@ -46,7 +50,7 @@ OTHER_NAMESPACE = in_order(["let_publish", 1], ["ask", 1], namespace="/lab_7/rob
 
 recovers_when_the_sensor_appears = check_of(
     model.repeats_the_last_message,
-    title="Once the first message has come, it answers with it",
+    title="After the first message it responds with that message",
     on=UNPLUGGED,
     needs=[checks.answers_with_the_last_message, checks.says_when_it_knows_nothing],
     see=checks.KNOWS_NOTHING,
@@ -54,14 +58,14 @@ recovers_when_the_sensor_appears = check_of(
 
 keeps_the_last_message = check_of(
     [model.repeats_the_last_message, model.says_when_it_knows_nothing],
-    title="Whatever came before, and however long the sensor is silent, it answers with the last message",
+    title="It responds with the last message, also after any pause and any earlier messages",
     on=ANY_ORDER,
     needs=checks.follows_the_battery,
 )
 
 answers_every_request = check_of(
     [model.answers_in_time, model.never_waits],
-    title="Every request is answered from memory, also eight at once",
+    title="Every request gets its response from memory, also eight at once",
     on=ANY_ORDER,
     needs=checks.server_appears,
     see="02_services#m4-why",

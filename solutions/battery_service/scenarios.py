@@ -1,4 +1,4 @@
-"""What is done to a battery service. No expected answers here: this runs in the arena."""
+"""The steps of scenarios for a battery service. No expected responses here: this runs in the arena."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from autograder.arena.sequence import Steps, carry_out
 from autograder.arena.stage import Stage
 from humanoid_interfaces.srv import GetBatteryStatus
 
-ON_ITS_WAY = 1.1  # s; longer than the model lets a message be on its way
+DELIVERY_TIME = 1.1  # s; longer than the model allows for the delivery of a message
 
 
 def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
-    """Ask so many times at once, set the charge, unplug sensors, wait: in the order of the steps; then press Ctrl-C."""
+    """Call the service, set the charge, unplug sensors and wait, in the order of the steps; then send SIGINT."""
     battery = stage.service("get_battery_status", GetBatteryStatus)
     stage.open()
 
     def let_publish(messages: int) -> None:
         stage.robot.wait_for_published(BatteryPublished, messages)
-        stage.wait(ON_ITS_WAY)
+        stage.wait(DELIVERY_TIME)
 
     carry_out(
         stage,

@@ -1,1 +1,1 @@
-"""The IMU is calibrated by a service, which waits, asks another service, and keeps its heartbeat all the while."""
+"""Chapter 5: a service calibrates the IMU; meanwhile it waits, calls another service and publishes its heartbeat."""

@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from . import model, truth
 
 BIASES = [[0.012, -0.008, 0.005], [-0.006, 0.011, -0.009]]  # rad/s
 AHEAD = [0.3, 0.0, 0.0]  # m/s, m/s, rad/s
-SETTLE = ["wait", 1.5]  # s, for a change to be known everywhere, and for imu_bias to be heard
+SETTLE = ["wait", 1.5]  # s, for a change to reach every node, and for imu_bias to arrive
 
 INTERRUPT = in_order(interrupt=True)
 TWICE = in_order(
@@ -47,7 +47,7 @@ keeps_its_heartbeat = check_of(model.beats, points=2, on=TWICE, needs=server_app
 
 refuses_before_the_first_state = check_of(
     model.ends_right(truth.UNKNOWN),
-    title="As long as no robot_state has come, it refuses at once",
+    title="Before the first robot_state it rejects requests at once",
     on=SILENT_ROBOT,
     needs=server_appears,
     see=KNOWS_NOTHING,
@@ -55,7 +55,7 @@ refuses_before_the_first_state = check_of(
 
 refuses_while_walking = check_of(
     model.ends_right(truth.WALKS),
-    title="While the robot walks, it refuses at once",
+    title="While the robot walks, it rejects requests at once",
     points=2,
     on=WALKS,
     needs=server_appears,
@@ -66,7 +66,7 @@ asks_get_status = check_of(model.asks_get_status, on=TWICE, needs=server_appears
 
 calibrates = check_of(
     model.ends_right(*model.SUCCEEDS),
-    title="When the robot stands, it succeeds after 3 s, also a second time",
+    title="While the robot stands, it succeeds after 3 s, also a second time",
     on=TWICE,
     needs=asks_get_status,
     see=WAITS,
@@ -74,7 +74,7 @@ calibrates = check_of(
 
 tells_what_it_measured = check_of(
     MEASURED,
-    title="The message holds the means of x, y and z, with four decimals at least, and the count of its own samples, "
+    title="The message has the means of x, y and z with at least four decimals, and the number of its own samples, "
     "also after a failure",
     points=2,
     on=[TWICE, WALK_BEGINS],
@@ -87,7 +87,7 @@ refuses_without_an_answer = check_of(
         model.ends_right(truth.MISSING),
         model.ends_right(truth.SAYS_NO, after="a failure"),
     ],
-    title="Without an answer of get_status in 2 s the calibration fails and says so; with any answer the next succeeds",
+    title="Without a response of get_status within 2 s the calibration fails and says so; the next can succeed",
     points=2,
     on=SILENT_STATUS,
     needs=calibrates,
@@ -96,7 +96,7 @@ refuses_without_an_answer = check_of(
 
 lives_while_it_waits = check_of(
     model.beats,
-    title="The heartbeat goes on while get_status is silent, or not there",
+    title="The heartbeat goes on while get_status does not respond or has no server",
     points=2,
     on=SILENT_STATUS,
     needs=[asks_get_status, keeps_its_heartbeat],
@@ -104,7 +104,7 @@ lives_while_it_waits = check_of(
 
 refuses_a_second_caller = check_of(
     [model.ends_right(*model.BUSY), model.ends_right(*model.SUCCEEDS)],
-    title="While a calibration runs, a second caller is refused at once, and the first one gets its answer",
+    title="While a calibration runs, a second request is rejected at once, and the first one gets its response",
     points=2,
     on=TWO_CALLERS,
     needs=calibrates,
@@ -113,7 +113,7 @@ refuses_a_second_caller = check_of(
 
 fails_when_it_begins_to_walk = check_of(
     model.ends_right(*model.WALKED),
-    title="When the robot begins to walk meanwhile, the calibration fails",
+    title="If the robot begins to walk during a calibration, the calibration fails",
     points=2,
     on=WALK_BEGINS,
     needs=calibrates,
@@ -122,7 +122,7 @@ fails_when_it_begins_to_walk = check_of(
 
 fails_without_samples = check_of(
     model.ends_right(truth.NO_SAMPLES),
-    title="When the imu is silent, the calibration fails and the node lives on",
+    title="If no imu messages come, the calibration fails and the node goes on running",
     on=NO_IMU,
     needs=calibrates,
     see=KNOWS_NOTHING,

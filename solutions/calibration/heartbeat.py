@@ -1,4 +1,4 @@
-"""Requires heartbeats without a gap, and says which callback held them up."""
+"""Requires heartbeats without a gap, and says which callback delayed them."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ from itertools import pairwise
 
 from autograder.authoring import Transcript, ev, expect, require_alive, unseen, where_it_waited
 
-GAP = 0.3  # s without a heartbeat
+MAX_GAP = 0.3  # s without a heartbeat
 JITTER = 0.06  # s of real time by which a message may be late on a busy machine
-MOST_JITTER = 1.0  # s; a callback that blocks costs 2 s at least
-SLOWEST, FASTEST = 7.5, 13.0  # Hz, heartbeats
-LONG_ENOUGH = 2.5  # s at work, or without a request, for a rate of its own
-Times = Sequence[tuple[float, float]]  # from when to when, s
+MAX_JITTER = 1.0  # s; a callback that blocks causes a gap of at least 2 s
+MIN_RATE, MAX_RATE = 7.5, 13.0  # Hz
+MIN_DURATION = 2.5  # s; in a shorter span no rate is measured
+Times = Sequence[tuple[float, float]]  # begin and end of each span, s
 
 
 def beats(run: Transcript) -> str:
     """The heartbeat goes on at 10 Hz, whatever the services do.
 
-    From the first one to the end of the scenario or Ctrl-C. Only for short scenarios: in 47 s a sound program on a busy
-    machine had three gaps of 0.6 to 0.74 s.
+    It is checked from the first one to the end of the scenario or SIGINT, in short scenarios only: in 47 s a correct
+    program on a busy machine had three gaps of 0.6 to 0.74 s.
     """
     require_alive(run)
     signalled = run.first(ev.NodeSignalled)
@@ -27,49 +27,49 @@ def beats(run: Transcript) -> str:
     heard = [event.t for event in run.received("heartbeat") if event.t <= end]
     working = _at_work(run, end)
     if not working:
-        raise unseen(run, "calibrate_imu was never asked")
+        raise unseen(run, "calibrate_imu was never called")
     expect(
         len(heard) > 1 and heard[0] <= working[0][0],
-        expected="messages on heartbeat, ten a second, from the start on",
-        observed=f"{len(heard)} messages" if len(heard) < 2 else f"the first one at {heard[0]:.1f} s",
-        help="Make a publisher (std_msgs/Empty) and a timer of 0.1 s in the constructor, with relative names.",
+        expected="ten messages a second on heartbeat, from the start on",
+        observed=f"{len(heard)} messages" if len(heard) < 2 else f"the first message at {heard[0]:.1f} s",
+        help="In the constructor, create a publisher (std_msgs/Empty) with a relative name, and a timer of 0.1 s.",
     )
     late = [woken.late for woken in run.all(ev.WokenLate)] + [robot.lag for robot in run.ground_truth]
     late += [starved.seconds for starved in run.all(ev.Starved)]
-    limit = GAP + JITTER * run.scale + min(max(late, default=0.0), MOST_JITTER)
+    limit = MAX_GAP + JITTER * run.scale + min(max(late, default=0.0), MAX_JITTER)
     start, stop = max(zip(heard, [*heard[1:], end], strict=True), key=lambda pair: pair[1] - pair[0])
-    during = any(since - GAP <= start <= until for since, until in working)
+    during = any(since - MAX_GAP <= start <= until for since, until in working)
     expect(
         stop - start <= limit,
-        expected=f"no gap of more than {GAP:g} s between two heartbeats",
-        observed=f"{stop - start:.1f} s without one, from {start:.1f} s on"
-        + (", while calibrate_imu was at work" if during else ""),
+        expected=f"no gap of more than {MAX_GAP:g} s between two heartbeats",
+        observed=f"a gap of {stop - start:.1f} s, from {start:.1f} s on"
+        + (", during a request to calibrate_imu" if during else ""),
         help=_advice_on_the_gap(run, during),
         at=start,
     )
     idle = [(before, after) for (_, before), (after, _) in pairwise(working)]
-    _require_rate(heard, working, "while calibrate_imu is at work")
+    _require_rate(heard, working, "during requests to calibrate_imu")
     _require_rate(heard, idle, "between requests")
     return "whole run"
 
 
 def _require_rate(beats: Sequence[float], times: Times, when: str) -> None:
-    long_ones = [(start, end) for start, end in times if end - start >= LONG_ENOUGH]
+    long_ones = [(start, end) for start, end in times if end - start >= MIN_DURATION]
     if not long_ones:
         return
     seconds = sum(end - start for start, end in long_ones)
     rate = sum(start <= beat < end for beat in beats for start, end in long_ones) / seconds
     expect(
-        SLOWEST <= rate <= FASTEST,
+        MIN_RATE <= rate <= MAX_RATE,
         expected=f"10 heartbeats a second, also {when}",
         observed=f"{rate:.1f} a second",
-        help="Make one timer with a period of 0.1 s that publishes one message each time.",
+        help="Create one timer with a period of 0.1 s that publishes one message each time.",
         at=long_ones[0][0],
     )
 
 
 def _at_work(run: Transcript, end: float) -> list[tuple[float, float]]:
-    """Return from when to when (s) requests waited for their answers, joined where they overlap."""
+    """Return the begin and end (s) of the times with a request waiting for its response, joined if they overlap."""
     answered = {event.call: event.t for event in run.all(ev.ServiceAnswered)}
     joined: list[tuple[float, float]] = []
     for event in run.all(ev.ServiceCalled):
@@ -83,7 +83,13 @@ def _at_work(run: Transcript, end: float) -> list[tuple[float, float]]:
 
 def _advice_on_the_gap(run: Transcript, during: bool) -> str:
     if not during:
-        return "The timer of the heartbeat must go on as long as the node runs: make it in the constructor."
+        return "The heartbeat's timer must run as long as the node: create it in the constructor."
     if place := where_it_waited(run):
-        return f"The timer got no turn: a callback stood in {place}, and held its thread or its group. Await there."
-    return "The timer gets no turn while the callback of calibrate_imu waits: await in it (async def, and futures)."
+        return (
+            f"The timer's callback could not run: another callback blocked its thread or callback group in {place}. "
+            "Use await there."
+        )
+    return (
+        "The timer's callback cannot run while the callback of calibrate_imu blocks: make that async, and await "
+        "futures in it."
+    )

@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks."""
+"""The hidden checks, which only the instructor's grading runs."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from .checks import ASKS, BIASES, GROUPS, KNOWS_NOTHING, MEASURED, SETTLE, WAITS
 
 Step = list[Any]
 AT_ONCE: Step = ["status_answers", 0.0]
-FOUND = 3.5  # s for a server that was started again to be found
+DISCOVERY_TIME = 3.5  # s for a server that was started again to be discovered
 
 
 def _bias(random: Random) -> Step:
-    """Give the gyro a bias no axis of which is near zero, and let it be known."""
+    """Draw the step that sets a gyro bias with no axis near zero."""
     return ["set_bias", *(round(random.choice((-1, 1)) * random.uniform(0.004, 0.014), 4) for _ in "xyz")]
 
 
 def _steps(random: Random) -> dict[str, Any]:
-    """Ask in any order, while get_status, imu, bias and other callers change."""
+    """Call the service in any order, while get_status, imu, bias and other clients change."""
 
     def seconds(least: float, most: float) -> float:
         return round(random.uniform(least, most), 2)
@@ -51,7 +51,7 @@ def _steps(random: Random) -> dict[str, Any]:
 
 
 def _steps_and_walks(random: Random) -> dict[str, Any]:
-    """Walk before, between and within calibrations; the way of walking is drawn."""
+    """Walk at random velocities before, between and during calibrations."""
 
     def way() -> list[float]:
         return random.choice(([0.0, 0.0, 0.35], [0.0, 0.0, -0.35], [-0.15, 0.0, 0.0], [0.3, 0.0, 0.0]))
@@ -59,7 +59,7 @@ def _steps_and_walks(random: Random) -> dict[str, Any]:
     stand: list[Step] = [["stand"], ["wait", 2.5]]
     blocks: list[list[Step]] = [
         [["walk", *way()], SETTLE, ["calibrate"], *stand, ["calibrate"]],
-        # It is over soon, so that it stands for certain at the end of the 3 s, also on a busy machine.
+        # The walk is short, so that the robot certainly stands at the end of the 3 s, also on a busy machine.
         [["begin"], ["wait", round(random.uniform(0.1, 0.3), 2)], ["walk_steps", 1, *way()], ["end"], *stand],
         [["status_answers", 0.9], ["begin"], ["wait", 0.4], ["walk", *way()], ["end"], *stand, AT_ONCE],
     ]
@@ -70,7 +70,7 @@ ANY_ORDER = Scenario("in_order", _steps, robot=RESTING)
 WALKS_IN_ANY_ORDER = Scenario("in_order", _steps_and_walks)
 NO_STATUS = in_order(
     *(["withdraw_status"], ["wait", 0.5], ["calibrate"]),
-    *(["offer_status"], ["wait", FOUND], ["calibrate"], SETTLE),
+    *(["offer_status"], ["wait", DISCOVERY_TIME], ["calibrate"], SETTLE),
 )
 OTHER_NAMESPACE = in_order(["set_bias", *BIASES[1]], SETTLE, ["calibrate"], SETTLE, namespace="/lab_7/robot")
 
@@ -78,7 +78,7 @@ in_any_order = partial(check_of, on=ANY_ORDER)
 
 calibrates_afresh = check_of(
     [*MEASURED, model.collects_for_three_seconds, model.publishes_the_means],
-    title="Whatever came before, each calibration is made of its own samples",
+    title="Each calibration uses only its own samples, whatever came before",
     points=2,
     on=ANY_ORDER,
     needs=[checks.tells_what_it_measured, checks.publishes_the_bias],
@@ -86,14 +86,14 @@ calibrates_afresh = check_of(
 
 waits_for_a_slow_status = in_any_order(
     [model.ends_right(truth.SLOW), model.ends_right(truth.SAYS_NO)],
-    title="A slow answer of get_status will do, and so will success: false; then it collects for 3 s",
+    title="After a slow response of get_status, or one with success false, it also collects samples for 3 s",
     needs=checks.calibrates,
     see=ASKS,
 )
 
 recovers_when_status_answers = check_of(
     model.ends_right(truth.PROMPT, after="a failure"),
-    title="However a calibration was refused or failed, the next one can succeed",
+    title="After any rejected or failed calibration the next one can succeed",
     on=[ANY_ORDER, WALKS_IN_ANY_ORDER],
     needs=checks.calibrates,
     see=ASKS,
@@ -101,14 +101,14 @@ recovers_when_status_answers = check_of(
 
 takes_no_answer_for_another = in_any_order(
     [model.ends_right(*model.GETS_NO_ANSWER), model.ends_right(truth.ANOTHERS_ANSWER), model.wastes_no_time],
-    title="No answer within 2 s is none: a late one counts for nothing, nor does that of an earlier request",
+    title="After 2 s without its own response of get_status it fails; a late response or another's does not count",
     needs=recovers_when_status_answers,
     see="03b_clients_in_bad_company#late-fix-run",
 )
 
 refuses_without_a_server = check_of(
     [model.ends_right(truth.MISSING), model.ends_right(truth.PROMPT, after="a failure"), model.beats],
-    title="When nobody offers get_status, it fails after 2 s at most, heartbeat goes on, and the next can succeed",
+    title="Without a server of get_status it fails within 2 s, the heartbeat goes on, and the next can succeed",
     on=NO_STATUS,
     needs=[checks.refuses_without_an_answer, checks.lives_while_it_waits],
     see=ASKS,
@@ -116,14 +116,14 @@ refuses_without_a_server = check_of(
 
 is_busy_while_it_asks = in_any_order(
     [model.ends_right(truth.ASKS), model.ends_right(*model.BUSY), model.calibrates_one_at_a_time],
-    title="A calibration has begun as soon as it is asked for: any other is refused until it ends",
+    title="From the request on, a calibration is running: every other request is rejected until it ends",
     needs=[checks.refuses_a_second_caller, recovers_when_status_answers],
     see=GROUPS,
 )
 
 fails_after_a_few_steps = check_of(
     [model.ends_right(truth.WALKED_SHORTLY), model.ends_right(truth.WALKED_ON, truth.WALKS)],
-    title="A robot that walked for a moment, and stands again at the end, has walked",
+    title="If the robot walks for a moment and stands again at the end, the calibration fails, too",
     on=WALKS_IN_ANY_ORDER,
     needs=checks.fails_when_it_begins_to_walk,
     see=WAITS,
@@ -131,21 +131,21 @@ fails_after_a_few_steps = check_of(
 
 fails_with_few_samples = in_any_order(
     model.ends_right(truth.FEW_SAMPLES),
-    title="Some samples are not enough: with fewer than 100 the calibration fails",
+    title="With some samples, but fewer than 100, the calibration fails",
     needs=[checks.fails_without_samples, recovers_when_status_answers],
     see=KNOWS_NOTHING,
 )
 
 is_content_with_enough_samples = in_any_order(
     model.ends_right(truth.ENOUGH_SAMPLES),
-    title="100 samples are enough, also when some are missing",
+    title="With 100 samples or more the calibration succeeds, even if some are missing",
     needs=recovers_when_status_answers,
     see=WAITS,
 )
 
 recovers_when_the_robot_speaks = check_of(
     model.ends_right(*model.SUCCEEDS, after="a failure"),
-    title="Once the first robot_state has come, it calibrates",
+    title="After the first robot_state it calibrates",
     on=checks.SILENT_ROBOT,
     needs=[checks.calibrates, checks.refuses_before_the_first_state],
     see=KNOWS_NOTHING,

@@ -1,6 +1,6 @@
-"""What each request to calibrate has to come to, by what robot, imu and get_status did meanwhile.
+"""The right outcome of each calibration request, from what robot, imu and get_status did during it.
 
-Where that cannot be told, as something may have been on its way, there is no story: either end is right.
+If messages in transit make that uncertain, there is no `Story`, and either outcome is right.
 """
 
 from __future__ import annotations
@@ -14,54 +14,54 @@ from autograder.authoring import DELIVERY, STEPS, Call, Request, Transcript, cal
 from ros_runtime.message_constants import RobotMode
 
 SERVICE = "calibrate_imu"
-ASKING = 2.0  # s, at most, for get_status
+ASKING = 2.0  # s, the longest wait for get_status
 COLLECTING = 3.0  # s
 FEWEST_SAMPLES = 100
-DISCOVERY = 3.0  # s for a server that was started again to be known
-TOGETHER = 0.3  # s: which of two requests comes first nobody can tell
-IN_TIME, LATE = 1.6, 2.5  # s: a reply of get_status that is certainly in time, and one that certainly is not
-CLOCK_SLACK = 0.1  # s less than it should take: clocks are read at either end
-SURELY_WALKED = 0.2  # s of the 3 s
-SURELY_FEW, SURELY_ENOUGH = 85, 115  # samples: some may be lost, and some may be on their way
+DISCOVERY = 3.0  # s for a server that was started again to be discovered
+TOGETHER = 0.3  # s; requests sent within this time may arrive in either order
+IN_TIME, LATE = 1.6, 2.5  # s; a sooner response of get_status is certainly in time, a later one certainly not
+CLOCK_SLACK = 0.1  # s, by which a measured duration may be too short, as two programs read the clock
+SURELY_WALKED = 0.2  # s of walking, which every server must notice
+SURELY_FEW, SURELY_ENOUGH = 85, 115  # samples, as some may be lost or in transit
 ALL_SAMPLES = 145  # of 150 in 3 s
 
 UNKNOWN = "before the first robot_state"
-WALKS = "while it walks"
-ASKS = "while another asks get_status"
-COLLECTS = "while another collects"
-MISSING = "nobody offers get_status"
-SILENT = "get_status is silent"
-ANSWERED_LATE = "get_status answers too late"
-ANOTHERS_ANSWER = "get_status answers an earlier request"
-WALKED_ON = "it begins to walk"
-WALKED_SHORTLY = "it walks for a moment"
-NO_SAMPLES = "no sample"
-FEW_SAMPLES = "some samples"
-PROMPT = "get_status answers at once"
-SLOW = "get_status is slow"
-SAYS_NO = "get_status answers success: false"
+WALKS = "while the robot walks"
+ASKS = "while another request waits for get_status"
+COLLECTS = "while another request collects samples"
+MISSING = "no server of get_status"
+SILENT = "get_status does not respond"
+ANSWERED_LATE = "get_status responds too late"
+ANOTHERS_ANSWER = "get_status responds to an earlier request"
+WALKED_ON = "the robot begins to walk"
+WALKED_SHORTLY = "the robot walks for a moment"
+NO_SAMPLES = "no samples"
+FEW_SAMPLES = "fewer than 100 samples"
+PROMPT = "get_status responds at once"
+SLOW = "get_status responds slowly"
+SAYS_NO = "get_status responds success: false"
 ENOUGH_SAMPLES = "some samples are missing"
 
 
 @dataclass(frozen=True)
 class Story:
-    """What a request has to come to.
+    """The right outcome of a request.
 
     Attributes:
-        end: it is refused at once, fails, or succeeds.
-        situation: why.
-        since: when (s) get_status answered, and collecting begins; NaN, if it does not.
-        after: how the calibration before it ended; "" for the first.
+        end: whether it is rejected at once, fails, or succeeds.
+        situation: the reason.
+        since: when (s) get_status responded and the collecting of samples begins; NaN if it did not respond.
+        after: the outcome of the calibration before it; "" for the first.
     """
 
-    end: Literal["is refused", "fails", "succeeds"]
+    end: Literal["is rejected", "fails", "succeeds"]
     situation: str
     since: float = math.nan
     after: str = ""
 
 
 def those(*situations: str, after: str = "") -> Callable[[Transcript], list[Call]]:
-    """Occasions: the requests in one of these situations, `after` a calibration that ended so."""
+    """Occasions: the requests in one of these situations, `after` a calibration with that outcome."""
 
     def occasions(run: Transcript) -> list[Call]:
         told = ((call, story_of(call)) for call in calls(SERVICE)(run))
@@ -75,11 +75,11 @@ def those(*situations: str, after: str = "") -> Callable[[Transcript], list[Call
 
 
 def story_of(call: Call) -> Story | None:
-    """Return what a request has to come to; None if nobody can tell."""
+    """Return the right outcome of a request; None if that is uncertain."""
     run, sent, end = call.run, call.sent.t, _end_of(call)
     known_from = _states_from(run)
     if end <= known_from:
-        return Story("is refused", UNKNOWN)
+        return Story("is rejected", UNKNOWN)
     before = run.robot_between(sent - DELIVERY, sent)
     if known_from > sent - DELIVERY or {robot.mode for robot in before} - {
         RobotMode.STANDING,
@@ -88,25 +88,25 @@ def story_of(call: Call) -> Story | None:
         return None
     handled = run.robot_between(sent - DELIVERY, min(end, sent + DELIVERY))
     if all(robot.mode == RobotMode.WALKING for robot in handled):
-        return Story("is refused", WALKS)
+        return Story("is rejected", WALKS)
     if any(robot.mode == RobotMode.WALKING for robot in before):
         return None
     for other in _at_work(call):
         story = story_of(other)
-        if story is None or (story.end != "is refused" and _end_of(other) < sent + DELIVERY / 4):
+        if story is None or (story.end != "is rejected" and _end_of(other) < sent + DELIVERY / 4):
             return None
-        if story.end != "is refused":
-            return Story("is refused", ASKS if not story.since <= sent + DELIVERY / 4 else COLLECTS)
+        if story.end != "is rejected":
+            return Story("is rejected", ASKS if not story.since <= sent + DELIVERY / 4 else COLLECTS)
     return _calibration(call)
 
 
 def imu_between(run: Transcript, start: float, end: float) -> list[ev.ImuPublished]:
-    """Return what the robot published on imu between two times (s)."""
+    """Return the robot's imu messages between two times (s)."""
     return [sample for sample in run.all(ev.ImuPublished) if start <= sample.t <= end]
 
 
 def status_requests(call: Call) -> list[Request]:
-    """Return the requests to get_status from a request to calibrate to its answer."""
+    """Return the requests to get_status between a calibration request and its response."""
     asked = call.run.requests("get_status")
     return [request for request in asked if call.sent.t <= request.received.t <= _end_of(call)]
 
@@ -116,16 +116,16 @@ def _end_of(call: Call) -> float:
 
 
 def _states_from(run: Transcript) -> float:
-    """Return from when (s) on the robot published its state."""
+    """Return when (s) the robot began to publish its state."""
     if all(verb != "publish_robot_state" for verb, *_ in run.params.get("steps", ())):
         return -math.inf
     return min((event.t for event in run.commands("robot_state")), default=math.inf)
 
 
 def _at_work(call: Call) -> list[Call]:
-    """Return the other requests that were not answered yet when this one came.
+    """Return the other requests without a response when this one came.
 
-    Of those that come together one may calibrate: the one that did, or else the first.
+    Of requests that come together only one may calibrate: the one that succeeded, or else the first.
     """
     others = [other for other in calls(SERVICE)(call.run) if other.name != call.name]
     rivals = [other for other in others if abs(other.sent.t - call.sent.t) < TOGETHER]
@@ -139,7 +139,7 @@ def _at_work(call: Call) -> list[Call]:
 
 
 def _calibration(call: Call) -> Story | None:
-    """Return what a request comes to that is not refused."""
+    """Return the right outcome of a request that is not rejected."""
     run, sent = call.run, call.sent.t
     after = _end_before(call)
     status = _status(call)
@@ -151,7 +151,7 @@ def _calibration(call: Call) -> Story | None:
     over = since + COLLECTING
     walked = [robot.t for robot in _walking(run, since + DELIVERY / 2, over - DELIVERY / 2)]
     if walked and walked[-1] - walked[0] >= SURELY_WALKED:
-        still = walked[-1] > over - DELIVERY  # a node may believe at the end that it walks
+        still = walked[-1] > over - DELIVERY  # the last robot_state that the node received may be WALKING
         return Story("fails", WALKED_ON if still else WALKED_SHORTLY, since, after)
     if _walking(run, sent, _end_of(call)):
         return None
@@ -159,7 +159,7 @@ def _calibration(call: Call) -> Story | None:
     published = len(imu_between(run, since, over))
     if len(imu_between(run, since - DELIVERY / 4, max(over, ended))) <= SURELY_FEW:
         return Story("fails", FEW_SAMPLES if published else NO_SAMPLES, since, after)
-    if ended < over - DELIVERY / 4:  # the robot stood, and imu may have been unplugged only later
+    if ended < over - DELIVERY / 4:  # it responded too early; the imu may have been unplugged only later
         usual = ALL_SAMPLES * (ended - since) / COLLECTING - 1
         if len(imu_between(run, since, ended)) < usual:
             return None
@@ -170,7 +170,7 @@ def _calibration(call: Call) -> Story | None:
 
 
 def _status(call: Call) -> tuple[str, float] | None:
-    """Return what get_status does, and when (s) it answers: NaN, if not in time."""
+    """Return the situation of get_status, and when (s) it responds; NaN if not in time."""
     run, sent = call.run, call.sent.t
     ready = run.first(ev.NodeReady)
     withdrawn = {event.server: event.t for event in run.all(ev.ServiceWithdrawn)}
@@ -201,7 +201,7 @@ def _status(call: Call) -> tuple[str, float] | None:
 
 
 def _status_as_planned(call: Call) -> tuple[str, float] | None:
-    """Return what get_status would have done, had it been asked."""
+    """Return what get_status would have done if it had been called."""
     begun = steps_until(call.run, call.sent.t)
     planned = [step for step in begun if step[0].startswith("status_")]
     if not planned:
@@ -220,7 +220,7 @@ def _walking(run: Transcript, start: float, end: float) -> list[ev.RobotTruth]:
 
 
 def _end_before(call: Call) -> str:
-    """Return how the last calibration that ended before a request came out."""
+    """Return the outcome of the last calibration before a request."""
     answers = [other.answer for other in calls(SERVICE)(call.run) if other.answer]
     ended = [(answer.t, answer.response.success) for answer in answers if answer.t <= call.sent.t]
     return ("a success" if max(ended)[1] else "a failure") if ended else ""

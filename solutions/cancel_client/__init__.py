@@ -1,1 +1,1 @@
-"""Chapter 7: a walk client that cancels when a person types q, and believes only the goal's end."""
+"""Chapter 7: a walk client that cancels its goal when a person types q, and reports only the goal's result."""

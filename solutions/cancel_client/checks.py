@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from autograder.authoring.walking.client_scenarios import GOOD, typed, walk, way
 
 from . import model
 
-AGREED_AND_OVER = {"distances": way(60), "ends_after": 3.0, "cancel": {"ends_after": None}}
+IGNORES_ACCEPTED_CANCEL = {"distances": way(60), "ends_after": 3.0, "cancel": {"ends_after": None}}
 ARRIVES = {"distances": way(60), "ends_after": 4.0}
 
 CANCELED_BY_Q = walk({**ARRIVES, "cancel": {"ends_after": 1.5}}, *typed("q"))
-OVERTAKEN = walk(AGREED_AND_OVER, *typed("q"))
+OVERTAKEN = walk(IGNORES_ACCEPTED_CANCEL, *typed("q"))
 EARLY = walk({**ARRIVES, "after": 2.0, "cancel": {"ends_after": 1.0}}, ["await_goal"], ["type", "q"])
 REFUSING = walk({**ARRIVES, "cancel": {"agreed": False, "after": 0.5}}, *typed("q"))
 INPUT_ENDS = walk({**ARRIVES, "after": 1.5, "ends_after": 3.0}, *typed(), ["end_input"])
 
 walks = check_of(
     [model.sends_one_goal, follows(1)],
-    title="It sends one goal, and says SUCCEEDED with the final pose and status 0",
+    title="It sends one goal, prints SUCCEEDED with the final pose, and exits with status 0",
     on=GOOD,
 )
 
@@ -31,7 +31,7 @@ prints_feedback_at_once = once_it_walks(model.prints_each_feedback_in_time, poin
 
 q_cancels_the_goal = once_it_walks(
     follows(2, 3),
-    title="A q and Enter cancel the goal; it waits for its end and ends with status 4",
+    title="After q and Enter it cancels the goal, waits for its result, and exits with status 4",
     points=3,
     on=CANCELED_BY_Q,
     see="07_cancel_and_preempt#fix-read",
@@ -40,28 +40,28 @@ q_cancels_the_goal = once_it_walks(
 once_q_cancels = partial(check_of, points=2, needs=q_cancels_the_goal)
 believes_the_end = once_q_cancels(
     follows(3),
-    title="A goal that SUCCEEDED, although the server had agreed to cancel it, ends it with status 0",
+    title="If the goal SUCCEEDED although the server had accepted the cancel, it exits with status 0",
     on=OVERTAKEN,
     see="07_cancel_and_preempt#late-why",
 )
 
 remembers_an_early_q = once_q_cancels(
     follows(4),
-    title="A q that is typed before the goal is accepted cancels it when it is",
+    title="If q is typed before the goal is accepted, it cancels the goal right after its acceptance",
     on=EARLY,
     see="06_walk_to_a_pose#diagram",
 )
 
 reports_a_refusal = once_q_cancels(
     [follows(6), model.says_what_was_refused],
-    title="A refused cancel (code 0, empty goals_canceling) is reported, and the goal goes on to its own end",
+    title="If the cancel is rejected (code 0, empty goals_canceling), it says so and waits for the goal's result",
     on=REFUSING,
     see="07_cancel_and_preempt#m1-why",
 )
 
 goes_on_at_the_end_of_input = once_it_walks(
     follows(5),
-    title="The end of the input (Ctrl-D) cancels nothing",
+    title="At the end of the input (Ctrl-D) it does not cancel the goal",
     on=INPUT_ENDS,
     see="07_cancel_and_preempt#button-code",
 )

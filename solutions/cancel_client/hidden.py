@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks."""
+"""The hidden checks, which only the instructor's grading runs."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from autograder.authoring.walking.client_obligations import follows
 from autograder.classroom.hidden_checks import every_client_hidden
 
 from . import checks, model
-from .checks import AGREED_AND_OVER, ARRIVES
+from .checks import ARRIVES, IGNORES_ACCEPTED_CANCEL
 
 ANY_WALK = program("in_order", scene.any_walk, namespace="/lab_7/robot")
 ANY_COURSE = program("in_order", lambda random: scene.any_course(random, types=True))
@@ -19,12 +19,13 @@ WRONG = program(
 )
 REJECTED_EARLY = scene.walk({"accepted": False, "after": 2.0}, ["await_goal"], ["type", "q"])
 ABORTED_ANYWAY = scene.walk(
-    {**AGREED_AND_OVER, "status": scene.ABORTED, "error_msg": "it fell while it stopped"}, *scene.typed("q")
+    {**IGNORES_ACCEPTED_CANCEL, "status": scene.ABORTED, "error_msg": "it fell while it stopped"},
+    *scene.typed("q"),
 )
 TOO_LATE = scene.walk(
     {"distances": scene.way(3), "ends_after": 1.0, "result_after": 2.5}, *scene.typed("q", after=1.3)
 )
-DEAF = scene.walk(
+NO_CANCEL_RESPONSE = scene.walk(
     {"distances": scene.way(60), "ends_after": 8.0, "cancel": {"agreed": None}}, *scene.typed("q")
 )
 CTRL_C_AFTER_Q = program(
@@ -32,7 +33,7 @@ CTRL_C_AFTER_Q = program(
 )
 OFTEN = scene.walk(
     {**ARRIVES, "after": 3.2, "ends_after": 6.0, "cancel": {"agreed": False}},
-    *(["type", "w\nq"], ["wait", 3.0], ["offer"]),  # two lines that are pasted; server and answer are late
+    *(["type", "w\nq"], ["wait", 3.0], ["offer"]),  # two pasted lines; the server and its response come late
     *scene.typed("q", "q", after=3.0),
 )
 NEVER_CANCELED = scene.walk(
@@ -44,7 +45,7 @@ SILENT_ON_THE_WAY = program("in_order", lambda random: scene.silence_on_the_way(
 
 walks_anywhere = check_of(
     [model.sends_one_goal, follows(1)],
-    title="Another namespace, another pose with negative numbers",
+    title="It works in another namespace, and with negative numbers",
     on=ANY_WALK,
     needs=checks.walks,
     see="01_robot_and_graph#names-why",
@@ -56,7 +57,7 @@ tells_an_abort = every_client.check("tells_an_abort", 1, needs=checks.walks)
 
 a_rejected_goal_needs_no_cancel = check_of(
     follows(1, 4),
-    title="A goal that is rejected after a q ends it with status 2",
+    title="If the goal is rejected after a q, it exits with status 2",
     on=REJECTED_EARLY,
     needs=checks.remembers_an_early_q,
     see="06_walk_to_a_pose#reject-task",
@@ -64,7 +65,7 @@ a_rejected_goal_needs_no_cancel = check_of(
 
 tells_an_abort_after_q = check_of(
     follows(3),
-    title="A goal that is ABORTED after the server had agreed to cancel it ends it with status 3",
+    title="If the goal is ABORTED after the server had accepted the cancel, it exits with status 3",
     on=ABORTED_ANYWAY,
     needs=[checks.believes_the_end, tells_an_abort],
     see="07_cancel_and_preempt#late-why",
@@ -72,7 +73,7 @@ tells_an_abort_after_q = check_of(
 
 reports_a_late_cancel = check_of(
     [follows(3, 7), model.says_what_was_refused],
-    title="A cancel that comes when the goal has ended (code 3) is reported, and the goal's end decides",
+    title="If the cancel comes after the goal's end (code 3), it says so, and the result decides the exit status",
     points=2,
     on=TOO_LATE,
     needs=checks.reports_a_refusal,
@@ -81,16 +82,16 @@ reports_a_late_cancel = check_of(
 
 does_not_wait_for_the_answer = check_of(
     follows(3, 8),
-    title="A cancel that gets no answer holds up nothing; after a q, too, Ctrl-C ends it with status 4 in any case",
+    title="It does not wait for the response to a cancel; after a q, Ctrl-C still ends it with status 4",
     points=2,
-    on=[DEAF, CTRL_C_AFTER_Q, NEVER_CANCELED],
+    on=[NO_CANCEL_RESPONSE, CTRL_C_AFTER_Q, NEVER_CANCELED],
     needs=[checks.q_cancels_the_goal, checks.ctrl_c_cancels_the_goal],
     see="03_clients_that_survive#kill-why",
 )
 
 cancels_once = check_of(
     follows(2),
-    title="However early and often q is typed, and whatever the answer, the goal is cancelled once",
+    title="It cancels the goal only once, however early and often q is typed, and whatever the response",
     on=OFTEN,
     needs=checks.q_cancels_the_goal,
     see="07_cancel_and_preempt#late-why",
@@ -98,7 +99,7 @@ cancels_once = check_of(
 
 other_lines_cancel_nothing = check_of(
     follows(5),
-    title="Only q cancels, also after an empty line or another word, such as quit",
+    title="It cancels only after q, not after an empty line or another word such as quit",
     on=OTHER_LINES,
     needs=checks.q_cancels_the_goal,
     see="07_cancel_and_preempt#button-code",
@@ -106,7 +107,7 @@ other_lines_cancel_nothing = check_of(
 
 walks_without_an_input = check_of(
     follows(5),
-    title="Started where there is no input, it walks all the same",
+    title="It works without any input, too",
     on=NO_INPUT,
     needs=checks.goes_on_at_the_end_of_input,
     see="07_cancel_and_preempt#button-code",
@@ -118,8 +119,8 @@ gives_up_without_an_answer = every_client_hidden.check(
 
 notices_silence_on_the_way = check_of(
     model.holds_whatever_happens,
-    title="A server that falls silent or dies on the way ends it with status 1, after a q, too; whatever happens, "
-    "every clause holds",
+    title="If feedback stops or the server dies on the way, it exits with status 1, also after a q; every clause holds "
+    "in any situation",
     on=[SILENT_ON_THE_WAY, ANY_COURSE],
     needs=[checks.gives_up_in_silence, checks.ctrl_c_cancels_the_goal],
     see="03_clients_that_survive#kill-why",

@@ -1,4 +1,4 @@
-"""What must hold of every run of the cancel client: all that a walk client owes, and what a q does."""
+"""What must hold for every run of the cancel client: all that holds for a walk client, and the effect of q."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Chapter 7: an action server that walks, can be cancelled at any moment, and lets a new goal preempt the old."""
+"""Chapter 7: an action server that walks the robot; goals can be cancelled at any time, and preempted by new ones."""

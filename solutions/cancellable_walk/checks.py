@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from autograder.authoring.walking.server_checks import INTERRUPT, WRONG_POSES, i
 from . import model
 
 FAR = [2.0, 0.0, 0.0]  # m, m, rad
-STANDING = 2.6  # s after the result of a cancelled goal in which the robot is watched
-WHILE_IT_STOPS = 0.35  # s from a cancel to the next goal
+STAY_TIME = 2.6  # s after the result of a cancelled goal, in which the robot must stand
+STOPPING_TIME = 0.35  # s from a cancel to a goal that comes while the robot is still stopping
 
 WALK = server_checks.two_walks()
 IMPOSSIBLE = in_order(*WRONG_POSES, robot=RESTING)
 UNPOWERED = in_order(["cut_power"], ["go", "unpowered", 1.0, 0.0, 0.0])
 CANCEL = in_order(
     *(["go", "canceled", *FAR], ["walk_for", 1.0], ["cancel", "canceled"]),
-    *(["end", "canceled"], ["wait", STANDING]),
+    *(["end", "canceled"], ["wait", STAY_TIME]),
     *(["go_on", "early", *FAR], ["cancel", "early"], ["end", "early"], ["wait", 1.0]),
-    *(["go_on", "hasty", *FAR], ["walk_for", 0.5], ["cancel", "hasty"], ["wait", WHILE_IT_STOPS]),
+    *(["go_on", "hasty", *FAR], ["walk_for", 0.5], ["cancel", "hasty"], ["wait", STOPPING_TIME]),
     *(["go_on", "again", 0.5, 0.0, 0.0], ["end", "hasty"], ["arrive", "again"], ["wait", 1.0]),
 )
 PREEMPT = in_order(
@@ -39,7 +39,7 @@ accepts_a_goal = check_of(
 )
 arrives = check_of(
     [model.succeeds, model.stands_at_success, model.turns_the_short_way, model.walks_at_its_own_velocity],
-    title="It SUCCEEDS, the robot stands within 0.10 m and 0.15 rad of the goal, and it has turned the shorter way",
+    title="The goal SUCCEEDS with the robot within 0.10 m and 0.15 rad of the pose, after turning the shorter way",
     points=2,
     on=WALK,
     needs=accepts_a_goal,
@@ -61,7 +61,7 @@ rejects_without_power = check_of(
 of_a_cancel = partial(check_of, on=CANCEL)
 cancels_in_mid_stride = of_a_cancel(
     model.canceled_in_mid_stride,
-    title="A cancel while the robot walks is agreed to and ends CANCELED",
+    title="A cancel while the robot walks is accepted, and the goal ends CANCELED",
     points=2,
     needs=accepts_a_goal,
     see="07_cancel_and_preempt#m1-why",
@@ -69,13 +69,14 @@ cancels_in_mid_stride = of_a_cancel(
 stops_when_canceled = of_a_cancel(model.stops_when_canceled, points=2, needs=cancels_in_mid_stride)
 walks_again_after_a_cancel = of_a_cancel(
     [model.accepts, model.grants_cancels, model.succeeds, model.reports_where_it_ended],
-    title="A new goal after a cancel, also an early or a hasty one, is walked to, and results hold what was measured",
+    title="After a cancel, also an early one, the robot walks to a new goal, and the results are measured",
     needs=[cancels_in_mid_stride, arrives],
     see="07_cancel_and_preempt#fix-intro",
 )
 new_goal_preempts_the_old = check_of(
     [model.accepts, model.gives_way, model.says_why_it_aborted, model.succeeds, model.reports_where_it_ended],
-    title="A new goal, but none that is rejected, aborts the old one with PREEMPTED and is walked to; results are true",
+    title="An accepted new goal, but not a rejected one, aborts the old with PREEMPTED; the robot walks to it, and the "
+    "results are measured",
     points=2,
     on=PREEMPT,
     needs=arrives,

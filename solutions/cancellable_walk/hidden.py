@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks."""
+"""The hidden checks, which only the instructor's grading runs."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from autograder.authoring.walking.server_checks import OTHER_NAMESPACE, impossib
 from autograder.classroom.hidden_checks import standard_hidden
 
 from . import checks, model
-from .checks import FAR, STANDING
+from .checks import FAR, STAY_TIME
 
 AFTERWARDS = 0.8  # s from a result to the next goal
 Steps = list[list[Any]]
 
 
 def _walks(random: Random) -> dict[str, Any]:
-    """Goals behind the robot, preemption one by one (also by the same pose) and by goals sent together; then a fall.
+    """Walk to poses behind the robot, preempt goals one by one and by several at once, then let the robot fall.
 
-    A velocity in odom's axes leads away from the second pose.
+    At the second pose, a server that publishes its velocity in odom's axes would walk in a wrong direction.
     """
     side = random.choice((-1, 1))
     yaw = side * random.uniform(3.0, 3.1)
@@ -42,7 +42,7 @@ def _walks(random: Random) -> dict[str, Any]:
         ],
         [
             *(["go_on", "canceled", *FAR], ["walk_for", random.uniform(0.2, 0.8)], ["cancel", "canceled"]),
-            ["wait", checks.WHILE_IT_STOPS],
+            ["wait", checks.STOPPING_TIME],
             *(["go", "at once", *beyond, 0.0], ["go", "instead", *aside, 0.0]),
             *(["end", "canceled"], ["end", "at once"], ["arrive", "instead"]),
         ],
@@ -61,40 +61,40 @@ def _walks(random: Random) -> dict[str, Any]:
 
 
 def _phases(random: Random) -> dict[str, Any]:
-    """Cancel in mid-stride at three moments of the gait."""
+    """Cancel in mid-stride at three different phases of the gait."""
     steps: Steps = []
     for k in range(3):
         delay = round(0.5 + 0.15 * k + random.uniform(0.0, 0.13), 3)
         name = f"after {delay:g} s"
         steps += [["go_on", name, *FAR], ["walk_for", delay], ["cancel", name], ["end", name]]
-        steps += [["wait", STANDING]]
+        steps += [["wait", STAY_TIME]]
     return {"steps": steps}
 
 
 def _cancels(random: Random) -> dict[str, Any]:
-    """Cancel before acceptance, at first feedback, twice, by a stranger, near arrival, after the end, in any order.
+    """Cancel, in any order: before acceptance, at the first feedback, twice, all goals, near arrival, after the end.
 
-    At last the robot goes down when it has stopped near its goal.
+    At the end the motors are switched off when the robot has stopped near its goal.
     """
     ahead, side = random.uniform(0.5, 0.6), random.choice((-1, 1))
 
     def walking(name: str, *cancel: Any) -> Steps:
         return [
             *(["go_on", name, *FAR], ["walk_for", random.uniform(0.0, 0.8)]),
-            *(list(cancel), ["end", name], ["wait", STANDING]),
+            *(list(cancel), ["end", name], ["wait", STAY_TIME]),
         ]
 
     blocks: list[Steps] = [
         [["cancel_at_once", "at once", *FAR], ["end", "at once"], ["wait", AFTERWARDS]],
         [
             *(["go_on", "first feedback", *FAR], ["hear_of", "first feedback"], ["cancel", "first feedback"]),
-            *(["end", "first feedback"], ["wait", STANDING]),
+            *(["end", "first feedback"], ["wait", STAY_TIME]),
         ],
         walking("twice", "cancel_twice", "twice"),
         walking("stranger", "cancel_all"),
         [
             *(["go_on", "near", ahead, 0.0, 0.0], ["come_near", "near", random.uniform(0.12, 0.2)]),
-            *(["cancel", "near"], ["end", "near"], ["wait", STANDING]),
+            *(["cancel", "near"], ["end", "near"], ["wait", STAY_TIME]),
         ],
         [
             *(["go_on", "settled", 0.25, 0.0, 0.0], ["settle", "settled"], ["cancel", "settled"]),
@@ -144,7 +144,7 @@ arrives_anywhere = check_of(
         model.only_one_is_newest,
         model.tells_a_fall,
     ],
-    title="It reaches poses with any heading, one after the other, whatever is asked meanwhile, and keeps every clause",
+    title="It reaches several poses with any heading, with other requests meanwhile, and fulfils every clause",
     points=2,
     on=ANY_ORDER,
     needs=checks.arrives,
@@ -152,20 +152,20 @@ arrives_anywhere = check_of(
 )
 cancels_at_the_start = of_cancels(
     model.canceled_at_the_start,
-    title="A cancel before execution, or at the first feedback, ends CANCELED with the robot still",
+    title="A cancel before execution or at the first feedback ends CANCELED, with the robot still",
     needs=checks.cancels_in_mid_stride,
     see="07_cancel_and_preempt#m1-why",
 )
 stops_in_any_phase_of_the_gait = check_of(
     [model.grants_cancels, model.stops_when_canceled, model.stands_without_a_goal],
-    title="Wherever its feet are when the cancel comes, the robot stops upright",
+    title="The robot stops upright, whatever phase of its step it is in when the cancel comes",
     points=2,
     on=SEVERAL_PHASES,
     needs=checks.stops_when_canceled,
 )
 cancels_near_arrival = of_cancels(
     model.canceled_near_arrival,
-    title="A cancel just before arrival ends CANCELED, or SUCCEEDED at the goal, with the robot still",
+    title="A cancel just before arrival ends CANCELED or SUCCEEDED, with the robot still",
     needs=checks.stops_when_canceled,
     see="07_cancel_and_preempt#fix-read",
 )
@@ -181,18 +181,18 @@ survives_a_cancel_after_the_end = of_cancels(
         model.reports_where_it_ended,
         model.tells_a_fall,
     ],
-    title="A cancel at or after the end changes nothing: the next goal is walked to, and every report is true",
+    title="A cancel at or after the goal's end has no effect: the robot walks to the next goal, and reports are right",
     needs=checks.arrives,
 )
 survives_two_cancels = of_cancels(
     [*model.canceled_twice, model.answers_every_cancel, model.feedback_ends_with_the_goal],
-    title="The same cancel asked for twice ends CANCELED once, and both are answered",
+    title="Two cancel requests for one goal both get a response, and the goal ends CANCELED once",
     needs=checks.cancels_in_mid_stride,
     see="07_cancel_and_preempt#m12-why",
 )
 obeys_a_stranger = of_cancels(
     model.canceled_by_a_stranger,
-    title="Another client may cancel every goal",
+    title="Another client can cancel all goals",
     needs=checks.stops_when_canceled,
     see="07_cancel_and_preempt#conventions",
 )

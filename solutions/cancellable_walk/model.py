@@ -1,4 +1,4 @@
-"""What must hold of every goal of a walk that can be cancelled, and of the robot while none is active."""
+"""What must hold for every goal of the cancellable walk, and for the robot without a goal."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def _of(
     *names: str,
     require: Sequence[Callable[[Goal], str | None]] = (cancels.grants_cancels, cancels.stops_when_canceled),
 ) -> tuple[Obligation, ...]:
-    """Return what is required of these goals: by default that a cancel is granted and the robot stops."""
+    """Return obligations of the goals with these names: by default, the cancel is accepted and the robot stops."""
 
     def some(run: Transcript) -> list[Goal]:
         return [run.goal(name) for name in names]

@@ -1,4 +1,4 @@
-"""What is done to a walking server. No expected answers here: this runs in the arena."""
+"""The steps of scenarios for a walk_to server. No expected responses here: this runs in the arena."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from humanoid_interfaces.action import WalkTo
 
 
 def in_order(stage: Stage, steps: Steps) -> None:
-    """Send goals, ask to cancel, disturb the robot, wait: in the order of the steps."""
+    """Send goals, cancel them, disturb the robot and wait, in the order of the steps."""
     walk_in_order(stage, "walk_to", WalkTo, steps, _goal)
 
 

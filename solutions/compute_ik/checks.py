@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -10,7 +10,10 @@ from autograder.authoring import check_of, in_order, standard
 from . import model
 
 FRAMES = ["shoulder", "base_link", "l_shoulder", "", "/shoulder", "Shoulder"]
-ROBOTS_ARM = {"upper_arm_length": 0.22, "forearm_length": 0.30}  # m: to elbow, and on to between the fingers
+ROBOTS_ARM = {
+    "upper_arm_length": 0.22,
+    "forearm_length": 0.30,
+}  # m: shoulder to elbow, elbow to between the fingers
 OTHER_ARM = [["upper_arm_length", 0.35], ["forearm_length", 0.2]]  # m
 REACHED = [[0.4, 0.3], [0.45, -0.1], [0.1, 0.3], [0.53, 0.12], [-0.2, 0.35], [-0.3, -0.1]]
 NEAR_THE_LIMITS = [[0.4, 0.3], [0.1, 0.5378], [-0.3, 0.463], [0.053, 0.0, True]]
@@ -18,7 +21,7 @@ BEYOND = [[0.5, 0.4], [0.56, 0.0], [-0.3, -0.5], [0.03, 0.02], [0.0, 0.0], [0.4,
 OF_ROBOTS_ARM = [[0.1, 0.05], [-0.05, 0.12]]
 OF_OTHER_ARM = [[0.5, 0.1], [0.2, -0.1, True], [0.3, -0.2]]
 
-# It has a robot, which notices a busy machine; on such a machine Python takes seconds to end.
+# This scenario starts a robot because the robot detects an overloaded machine, where Python takes seconds to exit.
 ANSWERS = [["ask", [*point, elbow_up]] for point in REACHED for elbow_up in (False, True)]
 POINTS = in_order(*ANSWERS, interrupt=True)
 LIMITS = in_order(*(["ask", point] for point in NEAR_THE_LIMITS + BEYOND), robot=None)
@@ -39,7 +42,7 @@ once_it_appears = partial(check_of, needs=server_appears)
 
 reaches_the_point = once_it_appears(
     [model.reaches_the_point, model.answers_in_time, model.never_waits],
-    title="The angles it answers with bring the hand to the point, within 1 mm, and come at once",
+    title="The response comes at once, and its angles bring the hand to the point within 1 mm",
     points=2,
     on=POINTS,
 )
@@ -54,7 +57,7 @@ says_what_is_out_of_reach = once_it_appears(
         model.says_what_is_out_of_reach,
         model.refuses_a_pose_that_is_not_finite,
     ],
-    title="Too far and too near is NO_IK_SOLUTION, what can be reached is not, and NaN is no success",
+    title="A target too far or too near gets NO_IK_SOLUTION, one within reach SUCCESS, and NaN never SUCCESS",
     points=2,
     on=LIMITS,
 )
@@ -63,8 +66,8 @@ refuses_other_frames = once_it_appears(model.refuses_other_frames, on=IN_FRAMES)
 
 moves_the_real_hand = check_of(
     [model.reaches_the_point, model.moves_the_real_hand, model.uses_the_lengths_it_accepted],
-    title="Started with the robot's own lengths as parameters, its angles bring the robot's hand to the point; "
-    "lengths that are set later are used, or refused",
+    title="With the robot's own lengths as parameters, the angles bring the robot's hand to the point; "
+    "lengths set later are used or rejected",
     points=2,
     on=REAL_ARM,
     needs=bends_the_elbow_as_asked,

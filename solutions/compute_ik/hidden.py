@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks."""
+"""The hidden checks, which only the instructor's grading runs."""
 
 from __future__ import annotations
 
@@ -13,28 +13,31 @@ from . import checks, model
 from .two_link_arm import DEFAULT, TwoLinkArm
 
 OTHER_FRAMES = ["", "/shoulder", "a/shoulder", "Shoulder", "shoulder ", "shoulder_link", "map"]
-NO_NUMBERS = [math.nan, math.inf, -math.inf]
-NO_LENGTHS = [0.0, -0.25, math.nan]
+NOT_FINITE = [math.nan, math.inf, -math.inf]
+INVALID_LENGTHS = [0.0, -0.25, math.nan]  # m
 BURST = 8  # a service keeps its last 10 requests
-AT_A_LIMIT = 0.002  # m from a limit of the reach: twice what the statement leaves open
+AT_A_LIMIT = 0.002  # m from a limit of the reach: twice the margin in which the statement allows either code
 
 
 def _anywhere(random: Random, arm: TwoLinkArm) -> list[Any]:
-    """Draw a question about a point that an arm reaches, the ends of the reach as often as the middle."""
+    """Draw a request for a point that an arm reaches; near either limit of its reach as often as in between."""
     part = random.choice([random.uniform(0.0, 0.05), random.uniform(0.0, 1.0), random.uniform(0.95, 1.0)])
     nearest, farthest = arm.nearest + AT_A_LIMIT, arm.farthest - AT_A_LIMIT
     return _at_distance(random, nearest + part * (farthest - nearest))
 
 
 def _at_distance(random: Random, distance: float) -> list[Any]:
-    """Draw a question [x, y, elbow_up] about a point so far (m) from the shoulder, more often ahead of it."""
+    """Draw a request [x, y, elbow_up] for a point at a distance (m) from the shoulder, more often ahead of it."""
     direction = random.uniform(-math.pi, math.pi) / random.choice([1.0, 2.5])
     x, y = distance * math.cos(direction), distance * math.sin(direction)
     return [round(x, 5), round(y, 5), random.random() < 0.5]
 
 
 def _targets(random: Random) -> dict[str, Any]:
-    """Ask in any order for points over the whole reach, just within and beyond each limit, in frames and at heights."""
+    """Draw requests, in any order.
+
+    Their points cover the whole reach, both sides of each of its limits, other frames and other heights.
+    """
     limits = [
         _at_distance(random, limit + away)
         for limit in (DEFAULT.nearest, DEFAULT.farthest)
@@ -54,7 +57,10 @@ def _targets(random: Random) -> dict[str, Any]:
 
 
 def _lengths(random: Random) -> dict[str, Any]:
-    """Read the lengths; set one, the other, both, at last a good one together with a bad one; ask after each."""
+    """Read the lengths; set one, the other, both, then a valid one together with an invalid one.
+
+    Requests follow each of these steps.
+    """
     names = list(DEFAULT.parameters)
     upper_arm, forearm, *_ = lengths = [[name, round(random.uniform(0.1, 0.6), 3)] for name in 3 * names]
     arm = DEFAULT.parameters
@@ -77,17 +83,17 @@ def _lengths(random: Random) -> dict[str, Any]:
     random.shuffle(blocks)
     sets = [step for block in blocks for step in set_and_ask(*block)]
     good, bad = random.sample(names, 2)
-    half_good = ["set_together", [good, round(0.7 * arm[good], 3)], [bad, random.choice(NO_LENGTHS)]]
+    half_good = ["set_together", [good, round(0.7 * arm[good], 3)], [bad, random.choice(INVALID_LENGTHS)]]
     first = [["ask", _anywhere(random, DEFAULT)] for _ in range(2)]
     last = [["ask", _anywhere(random, TwoLinkArm(*arm.values()))] for _ in range(4)]
     return {"steps": [["get", *names], *first, *sets, half_good, *last]}
 
 
 def _no_numbers(random: Random) -> dict[str, Any]:
-    """Ask for points that are none among points; set lengths that are none and ask; then set good ones."""
+    """Request NaN and infinite points among valid ones; set invalid and valid lengths, each with requests."""
     points = [
-        *([bad, 0.3] for bad in NO_NUMBERS),
-        *([0.3, bad] for bad in NO_NUMBERS),
+        *([bad, 0.3] for bad in NOT_FINITE),
+        *([0.3, bad] for bad in NOT_FINITE),
         [math.nan, math.nan],
         [0.4, 0.3, False, "shoulder", math.nan],
         [math.nan, 0.3, True, "base_link"],
@@ -95,7 +101,7 @@ def _no_numbers(random: Random) -> dict[str, Any]:
     random.shuffle(points)
     steps = [["ask", question] for bad in points for question in (bad, _anywhere(random, DEFAULT))]
     names = list(DEFAULT.parameters)
-    for bad in NO_LENGTHS:
+    for bad in INVALID_LENGTHS:
         steps += [["set", [random.choice(names), bad]], ["ask", [0.4, 0.3]], ["ask", [0.1, -0.1, True]]]
     steps.append(["set", *([name, 0.35] for name in names)])
     with_equal_lengths = [[0.2, 0.3], [0.0, 0.0], [0.4, 0.3], [-0.3, 0.3]]  # the shoulder is one of them
@@ -116,7 +122,7 @@ reaches_any_point = check_of(
         model.says_what_is_out_of_reach,
         model.refuses_other_frames,
     ],
-    title="All around the shoulder, up to both limits and in any frame, the answer is right, also of eight at once",
+    title="Responses are right all around the shoulder, up to both limits, in any frame, and for eight calls at once",
     points=2,
     on=ANY_TARGET,
     needs=[checks.bends_the_elbow_as_asked, checks.says_what_is_out_of_reach, checks.refuses_other_frames],
@@ -124,7 +130,7 @@ reaches_any_point = check_of(
 
 refuses_what_is_no_number = check_of(
     [model.answers_every_call, model.refuses_a_pose_that_is_not_finite, model.refuses_nothing_within_reach],
-    title="Coordinates and lengths that are no numbers: no success, and the node lives on and answers as ever",
+    title="Coordinates or lengths that are NaN or infinite get no SUCCESS, and the node goes on responding",
     on=NO_NUMBER,
     needs=checks.says_what_is_out_of_reach,
     see="02_services#nan",
@@ -134,7 +140,7 @@ declares_its_lengths = check_of(
     model.lengths_are_parameters,
     on=ANY_LENGTH,
     needs=checks.server_appears,
-    to_its_end=False,  # whatever becomes of the node after that
+    to_its_end=False,  # a crash of the node in a later step does not matter
 )
 
 does_what_it_says_of_new_lengths = check_of(

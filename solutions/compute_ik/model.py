@@ -1,4 +1,4 @@
-"""What must hold of every answer of the IK service, clause by clause, in every scenario."""
+"""What must hold for every response of the IK service, clause by clause, in every scenario."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ from .two_link_arm import DEFAULT, TOLERANCE, TwoLinkArm
 
 SERVICE = "compute_ik"
 SETTING = ("set_parameters", "set_parameters_atomically")
-AHEAD = 0.02  # m; farther back, "above the line" may be read in two ways
-ARM_TOLERANCE = 0.01  # m; the servos of the robot's arm bring the hand within 2 mm
-COMPUTE = "Compute and answer: the callback must not sleep, nor wait for anything."
+AHEAD = 0.02  # m; for targets farther back, "above the line" is ambiguous
+ARM_TOLERANCE = 0.01  # m; the servos of the robot's arm bring the hand to within 2 mm
+COMPUTE = "Compute and return the response: the callback must neither sleep nor wait for anything."
 
 answers_in_time = answered_within(2.0, SERVICE, clause=7, help=COMPUTE)
 never_waits = answers_from_memory(SERVICE, lambda call: "any request", clause=7, help=COMPUTE)
@@ -37,14 +37,14 @@ never_waits = answers_from_memory(SERVICE, lambda call: "any request", clause=7,
 
 @obligation(7, of=calls(SERVICE), see="04_your_own_interfaces#cosine-why")
 def answers_every_call(call: Call) -> str:
-    """Every request gets an answer, whatever it asks for and whatever lengths were set"""
+    """Every request gets a response, whatever its target and whatever lengths were set"""
     Reply(call, DEFAULT)
-    return "with lengths that are none" if _arm(call) is None else "with an arm"
+    return "with invalid lengths" if _arm(call) is None else "with valid lengths"
 
 
 @obligation(1, of=calls(SERVICE), see="04_your_own_interfaces#cosine-why")
 def refuses_nothing_within_reach(call: Call) -> str | None:
-    """What can be reached is SUCCESS"""
+    """A target within reach gets SUCCESS"""
     reply = _reply(call)
     if reply is None or not reply.is_within_reach:
         return None
@@ -52,21 +52,21 @@ def refuses_nothing_within_reach(call: Call) -> str | None:
         reply,
         Response.SUCCESS,
         because=reply.reach,
-        help="Compare the distance of the target with the lengths in metres: their sum is the farthest it may be.",
+        help="Compare the target's distance with the lengths, in metres: a target is within reach up to their sum.",
     )
     return "within reach"
 
 
 @obligation(1, 2, of=calls(SERVICE), see="04_your_own_interfaces#cosine-why")
 def reaches_the_point(call: Call) -> str | None:
-    """A success brings the hand to the point, within 1 mm; what is within reach is a success"""
+    """A target within reach gets SUCCESS, and the angles bring the hand to the point within 1 mm"""
     reply = _reply(call)
     if reply is None or reply.is_out_of_reach:
         return None
     if refuses_nothing_within_reach.require(call) is None and not reply.is_a_success:
         return None
-    missed_by = reply.arm.misses(*reply.shoulder_and_elbow, reply.target)
-    where = "no place at all"
+    missed_by = reply.arm.hand_error(*reply.shoulder_and_elbow, reply.target)
+    where = "these angles give no position"
     if missed_by < math.inf:
         x, y = reply.arm.hand_at(*reply.shoulder_and_elbow)
         where = f"the hand is at ({x:.3f}, {y:.3f}), {missed_by * 1000:.0f} mm off"
@@ -85,21 +85,21 @@ def reaches_the_point(call: Call) -> str | None:
 
 @obligation(3, of=calls(SERVICE), see="04_your_own_interfaces#cosine-why")
 def bends_the_elbow_as_asked(call: Call) -> str | None:
-    """The elbow is above the line to a target ahead with elbow_up, below it without"""
+    """For a target ahead, the elbow is above the line to it if elbow_up is true, else below"""
     reply = _reply(call)
     if reply is None or not reply.is_within_reach or reply.target[0] < AHEAD or not reply.is_a_success:
         return None
     side, is_above = side_in_words(reply.elbow_up), reply.elbow_is_above
     reply.call.require(
         is_above is not None,
-        expected=f"two angles for {reply.question}",
-        observed=f"{reply.angles}, which is nowhere",
-        help="Look where a NaN or an infinite number comes from: a division by zero, or acos of more than 1.",
+        expected=f"two finite angles for {reply.question}",
+        observed=reply.angles,
+        help="Find where the NaN or infinity comes from: a division by zero, or acos of more than 1.",
     )
     reply.call.require(
         is_above == reply.elbow_up,
         expected=f"the elbow {side} the line from shoulder to target for {reply.question}",
-        observed=f"{reply.angles}: the elbow is {side_in_words(bool(is_above))} it",
+        observed=f"{reply.angles}: the elbow is {side_in_words(bool(is_above))} that line",
         help=advice_on_the_side(reply.elbow_up, _side_of_the_twin(reply)),
     )
     return f"the elbow {side}"
@@ -107,7 +107,7 @@ def bends_the_elbow_as_asked(call: Call) -> str | None:
 
 @obligation(4, of=calls(SERVICE))
 def says_what_is_out_of_reach(call: Call) -> str | None:
-    """Too far and too near is NO_IK_SOLUTION"""
+    """A target too far or too near gets NO_IK_SOLUTION"""
     reply = _reply(call)
     if reply is None or not reply.is_out_of_reach:
         return None
@@ -115,19 +115,19 @@ def says_what_is_out_of_reach(call: Call) -> str | None:
         reply,
         Response.NO_IK_SOLUTION,
         because=reply.reach,
-        help="Look at cos(elbow) before acos: beyond -1 and 1 there is no such triangle; force nothing into it.",
+        help="Check cos(elbow) before acos: below -1 or above 1 there is no such triangle. Do not clamp the value.",
     )
     return "too far" if reply.distance > reply.arm.farthest else "too near"
 
 
 @obligation(5, of=calls(SERVICE), see="04_your_own_interfaces#server-why")
 def refuses_other_frames(call: Call) -> str:
-    """A target in any frame but "shoulder" is FRAME_TRANSFORM_FAILURE, and no other is"""
+    """A target gets FRAME_TRANSFORM_FAILURE if its frame is not "shoulder", and only then"""
     reply = Reply(call, DEFAULT)
     if reply.frame == "shoulder":
         reply.call.require(
             reply.error_code != Response.FRAME_TRANSFORM_FAILURE,
-            expected=f"another error_code for {reply.question}: that is the right frame",
+            expected=f"an error_code other than FRAME_TRANSFORM_FAILURE for {reply.question}, as the frame is right",
             observed=f"error_code {code_in_words(reply.error_code)}",
             help="Compare request.target.header.frame_id with 'shoulder'.",
         )
@@ -136,15 +136,16 @@ def refuses_other_frames(call: Call) -> str:
     _require_code(
         reply,
         Response.FRAME_TRANSFORM_FAILURE,
-        because="only 'shoulder' is the frame of the arm",
-        help=f"{reply.frame!r} is not 'shoulder'{either}: refuse everything else, before computing.",
+        because="the only valid frame is 'shoulder'",
+        help=f"{reply.frame!r} is not 'shoulder'{either}: before computing, return FRAME_TRANSFORM_FAILURE for every "
+        "other frame.",
     )
     return "in another frame" if reply.frame else "in an empty frame"
 
 
 @obligation(6, of=calls(SERVICE))
 def refuses_a_pose_that_is_not_finite(call: Call) -> str | None:
-    """A target whose x or y is NaN or infinite is no success"""
+    """A target whose x or y is NaN or infinite never gets SUCCESS"""
     reply = Reply(call, DEFAULT)
     if reply.frame != "shoulder" or all(map(math.isfinite, reply.target)):
         return None
@@ -152,14 +153,14 @@ def refuses_a_pose_that_is_not_finite(call: Call) -> str | None:
         not reply.is_a_success,
         expected=f"any error_code but SUCCESS for {reply.question}",
         observed=f"error_code {code_in_words(reply.error_code)}, {reply.angles}",
-        help="Every `<` and `>` with NaN is false: ask math.isfinite(), or test for what is good.",
+        help="Every `<` and `>` with NaN is false: use math.isfinite(), or test that the value is within the limits.",
     )
     return "NaN" if any(map(math.isnan, reply.target)) else "infinite"
 
 
 @obligation(9, of=calls(SERVICE), see="04_your_own_interfaces#parameters-why")
 def uses_the_lengths_it_accepted(call: Call) -> str | None:
-    """Lengths that were set are used from the next request on, if set_parameters accepted them; else the old ones"""
+    """Lengths that set_parameters accepted are used from the next request on; after a rejection, the previous ones"""
     if not _settings(call):
         return None
     each = [reaches_the_point, says_what_is_out_of_reach, bends_the_elbow_as_asked]
@@ -171,17 +172,19 @@ def lengths_are_parameters(run: Transcript) -> str:
     """upper_arm_length and forearm_length are parameters of type double: 0.30 and 0.25 m"""
     asked = [call for call in run.calls if call.service.endswith("/get_parameters")]
     if not asked:
-        raise unseen(run, "the parameters were never asked for")
+        raise unseen(run, "the parameters were never read")
     for call in asked:
         values = iter(call.response.values)
         for name in call.request.names:
             length = DEFAULT.parameters[name]
-            value = next(values, ParameterValue())  # a node that lacks one may say nothing of any
+            value = next(
+                values, ParameterValue()
+            )  # a node that lacks one of them may return no values at all
             is_double = value.type == ParameterType.PARAMETER_DOUBLE
             expect(
                 is_double and math.isclose(value.double_value, length, abs_tol=1e-6),
                 expected=f"a parameter {name} of type double with the value {length:.2f}",
-                observed=f"the value {value.double_value:g}" if is_double else "no value of that type",
+                observed=f"the value {value.double_value:g}" if is_double else "no value of type double",
                 help=f"Declare it with its default in the constructor: self.declare_parameter({name!r}, {length:.2f}).",
                 at=call.sent.t,
             )
@@ -195,7 +198,7 @@ def moves_the_real_hand(run: Transcript) -> str | None:
     for arm in reports:
         answered = [call for call in calls(SERVICE)(run) if call.answer and call.answer.t < arm.t]
         if not answered:
-            raise unseen(run, "the arm was moved before there were angles for it")
+            raise unseen(run, "the arm was moved before a response with angles")
         reply = Reply(answered[-1], DEFAULT)
         if run.told("move_joints", before=arm.t).t < reply.at:
             raise held_up(run, f"the arm was not moved to the angles for {reply.question}")
@@ -204,8 +207,8 @@ def moves_the_real_hand(run: Transcript) -> str | None:
         expect(
             away <= ARM_TOLERANCE,
             expected=f"the robot's hand within {ARM_TOLERANCE * 1000:.0f} mm of {reply.question}",
-            observed=f"{reply.angles}: the hand came {away * 1000:.0f} mm off, to {arm.hand[0]:.3f}, {arm.hand[2]:.3f}",
-            help="The robot's elbow bends one way only, as yours does: with elbow_up false its angle is positive.",
+            observed=f"{reply.angles}: the hand at ({arm.hand[0]:.3f}, {arm.hand[2]:.3f}), {away * 1000:.0f} mm away",
+            help="The robot's elbow bends one way only: with elbow_up false, the elbow's angle must be positive.",
             at=arm.t,
         )
     return "the robot's arm" if reports else None
@@ -221,7 +224,7 @@ def _settings(call: Call) -> list[Call]:
 
 
 def _accepted(setting: Call) -> dict[str, float]:
-    """Return the parameters that a call set, by their names, as far as the node accepted them."""
+    """Return the parameters in a set_parameters call that the node accepted, by name."""
     together = setting.service.endswith("_atomically")
     asked, response = setting.request.parameters, setting.response
     results = [response.result] * len(asked) if together else response.results
@@ -233,7 +236,7 @@ def _accepted(setting: Call) -> dict[str, float]:
 
 
 def _lengths(call: Call) -> list[dict[str, float]]:
-    """Return the lengths (m) that the node has had up to a call: at its start, then as it accepted them."""
+    """Return the lengths (m) that the node has had up to a call: at the start, then after each accepted change."""
     lengths = [DEFAULT.parameters | (call.run.params.get("started_with") or {})]
     for setting in _settings(call):
         lengths.append(lengths[-1] | _accepted(setting))
@@ -241,13 +244,13 @@ def _lengths(call: Call) -> list[dict[str, float]]:
 
 
 def _arm(call: Call) -> TwoLinkArm | None:
-    """Return the arm of the lengths at a call, or None if it accepted a length that is not finite and above 0."""
+    """Return the arm at the time of a call; None if the node had accepted a length that is not finite and above 0."""
     upper_arm, forearm = (_lengths(call)[-1][name] for name in DEFAULT.parameters)
     return TwoLinkArm(upper_arm, forearm) if upper_arm > 0.0 < forearm < math.inf > upper_arm else None
 
 
 def _arms_before(call: Call) -> list[TwoLinkArm]:
-    """Return the arms of lengths that the node has had before a call, or has been told of one by one."""
+    """Return the arms from all combinations of the lengths that the node has had before a call."""
     uppers, forearms = (
         [DEFAULT.parameters[name], *(each[name] for each in _lengths(call))] for name in DEFAULT.parameters
     )
@@ -255,7 +258,7 @@ def _arms_before(call: Call) -> list[TwoLinkArm]:
 
 
 def _reply(call: Call) -> Reply | None:
-    """Return the answer to a call for a point in frame shoulder; None if it asks for none, or the arm is none."""
+    """Return the response to a call; None if its target is not a finite point in "shoulder", or a length is invalid."""
     arm, point = _arm(call), call.request.target.point
     reply = Reply(call, arm or DEFAULT)
     is_a_point = reply.frame == "shoulder" and all(map(math.isfinite, (point.x, point.y, point.z)))
@@ -263,7 +266,7 @@ def _reply(call: Call) -> Reply | None:
 
 
 def _side_of_the_twin(reply: Reply) -> bool | None:
-    """Return the side of the elbow in the answer for the same target with the other elbow_up, if there is one."""
+    """Return the elbow's side in the response to the same target with the opposite elbow_up, or None."""
     others = (Reply(each, reply.arm) for each in calls(SERVICE)(reply.call.run) if each.answer)
     twins = (each for each in others if each.target == reply.target and each.elbow_up != reply.elbow_up)
     return next((twin.elbow_is_above for twin in twins), None)
@@ -276,5 +279,6 @@ def _require_code(reply: Reply, code: int, *, because: str, help: str) -> None:
         observed=f"error_code {code_in_words(reply.error_code)}",
         help=help
         if reply.error_code in CODES
-        else "Set response.error_code to one of ComputeIK.Response's constants. A new response has 0, which is none.",
+        else "Set response.error_code to one of the constants of ComputeIK.Response. In a new response it is 0, which "
+        "is not one of them.",
     )

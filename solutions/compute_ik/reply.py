@@ -1,4 +1,4 @@
-"""An answer of the IK service, read in the terms of a planar arm: m, rad."""
+"""A response of the IK service, in terms of a planar arm (m, rad)."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ CODES = {getattr(Response, name): name for name in ("SUCCESS", "NO_IK_SOLUTION",
 
 
 class Reply:
-    """The answer to a call of the node that computes with `arm`.
+    """The response to a call, from a node that computes with `arm`.
 
     Attributes:
-        target, frame, elbow_up: what was asked for.
+        target, frame, elbow_up: the fields of the request.
         distance: of the target from the shoulder (m).
-        error_code, shoulder_and_elbow: what was answered, at `at` (s).
+        error_code, shoulder_and_elbow: the fields of the response, which came at `at` (s).
 
     Raises:
-        Failure: there is none.
+        Failure: there is no response.
     """
 
     def __init__(self, call: Call, arm: TwoLinkArm) -> None:
@@ -35,7 +35,7 @@ class Reply:
         try:
             response = call.response
         except Failure as failure:
-            failure.expected = f"an answer to {self.question}"
+            failure.expected = f"a response to {self.question}"
             raise
         self.at = call.answered.t
         self.error_code: int = response.error_code
@@ -44,7 +44,7 @@ class Reply:
 
     @property
     def is_within_reach(self) -> bool:
-        """Whether the target is certainly within reach; nearer than 1 mm to a limit, rounding may decide."""
+        """Whether the target is certainly within reach: within 1 mm of a limit, rounding may decide."""
         return self.arm.nearest + TOLERANCE < self.distance < self.arm.farthest - TOLERANCE
 
     @property
@@ -54,7 +54,7 @@ class Reply:
 
     @property
     def elbow_is_above(self) -> bool | None:
-        """The side of the elbow; None for an angle that is no number."""
+        """Whether the elbow is above the line to the target; None if its angle is NaN or infinite."""
         shoulder = self.shoulder_and_elbow[0]
         return self.arm.elbow_is_above(shoulder, self.target) if math.isfinite(shoulder) else None
 
@@ -68,21 +68,22 @@ class Reply:
 
     @property
     def reach(self) -> str:
-        """What the arm can reach, and where the target is."""
+        """The range of the arm and the target's distance, in words."""
         arm = self.arm
-        return f"the arm reaches from {arm.nearest:.3f} to {arm.farthest:.3f} m, and this is {self.distance:.3f} m away"
+        reach = f"the arm reaches from {arm.nearest:.3f} to {arm.farthest:.3f} m"
+        return f"{reach}; the target is {self.distance:.3f} m away"
 
     @property
     def angles(self) -> str:
-        """The answer's angles in words."""
+        """The angles of the response, in words."""
         return "shoulder {:.4f}, elbow {:.4f} rad".format(*self.shoulder_and_elbow)
 
 
 def code_in_words(code: int) -> str:
-    """Return an error code with its name."""
-    return f"{CODES.get(code, 'without a name')} ({code})"
+    """Return an error code with the name of its constant."""
+    return f"{CODES.get(code, 'no constant')} ({code})"
 
 
 def side_in_words(is_above: bool) -> str:
-    """Return the side of the elbow."""
+    """Return the side of the elbow as a word."""
     return "above" if is_above else "below"

@@ -1,4 +1,4 @@
-"""What is done to an IK service. No expected answers here: this runs in the arena."""
+"""The steps of scenarios for an IK service. No expected responses here: this runs in the arena."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from autograder.arena.sequence import Steps, carry_out
 from autograder.arena.stage import Stage
 from humanoid_interfaces.srv import ComputeIK
 
-MOVING = 1.0  # s of the robot's time for the arm from one point to the next
-REST_TIME = 0.3  # s of it to come to rest
+MOVE_DURATION = 1.0  # s of the robot's time, in which the arm moves from one point to the next
+REST_TIME = 0.3  # s of the robot's time, in which the arm comes to rest
 OTHER_ARM_JOINTS = ("shoulder_roll", "shoulder_yaw", "wrist_yaw", "wrist_pitch", "wrist_roll")
 
-Question = Sequence[Any]  # x and y (m); then, if they are other than usual: elbow_up, the frame, z (m)
+Question = Sequence[Any]  # x and y (m); optionally elbow_up, the frame, z (m)
 
 
 def in_order(
     stage: Stage, steps: Steps, interrupt: bool = False, started_with: Mapping[str, float] | None = None
 ) -> None:
-    """Ask at once, bring the robot's arm to an answer, read and set parameters; then press Ctrl-C.
+    """Call the service, move the robot's arm to the response's angles, read and set parameters; then send SIGINT.
 
-    `started_with` are the lengths (m) that the node is started with, if not the usual ones: the model has to know.
+    `started_with` are the lengths (m) that the node is started with, if not its defaults. The checks read them.
     """
     ik = stage.service("compute_ik", ComputeIK)
     parameters = stage.parameters_of(ik)
@@ -74,11 +74,11 @@ def _parameters(lengths: Sequence[tuple[str, float]]) -> list[ParameterMsg]:
 
 
 def _move_to(stage: Stage, shoulder: float, elbow: float) -> None:
-    """Bring the left arm to the planar angles (rad), unless they are no angles, and report where it is."""
+    """Move the left arm to finite planar angles (rad), and report where it is."""
     if not (math.isfinite(shoulder) and math.isfinite(elbow)):
         return
-    stage.robot.move_joints(_joint_positions(shoulder, elbow), MOVING)
-    stage.robot.wait(MOVING + REST_TIME)
+    stage.robot.move_joints(_joint_positions(shoulder, elbow), MOVE_DURATION)
+    stage.robot.wait(MOVE_DURATION + REST_TIME)
     stage.robot.report_arm("l")
     stage.robot.wait_for_commands()
 
@@ -86,8 +86,8 @@ def _move_to(stage: Stage, shoulder: float, elbow: float) -> None:
 def _joint_positions(shoulder: float, elbow: float) -> dict[str, float]:
     """Return the positions (rad, between -π and π) of the arm's joints for planar angles.
 
-    At 0 the robot's arm hangs, which is -90° in the plane; and its joints turn about y, which points to the left, so
-    what is counter-clockwise in the plane (x forward, y up) is negative for them.
+    At 0 the robot's arm hangs down, which is -90° in the plane. Its joints turn about the y axis, which points to the
+    left, so a counter-clockwise angle in the plane (x forward, y up) is negative for them.
     """
     return {
         "l_shoulder_pitch": math.remainder(-(shoulder + math.pi / 2), math.tau),

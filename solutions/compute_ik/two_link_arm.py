@@ -1,4 +1,4 @@
-"""The planar two-link arm, forwards: where elbow and hand are at given angles. x is forward, y up, in m."""
+"""Forward kinematics of the planar two-link arm: the places of elbow and hand (m). x is forward, y is up."""
 
 from __future__ import annotations
 
@@ -12,7 +12,10 @@ TOLERANCE = 0.001  # m, of the hand at the target
 
 @dataclass(frozen=True)
 class TwoLinkArm:
-    """Lengths in m. Angles are in rad, counter-clockwise: the upper arm from x, the forearm from the upper arm."""
+    """The arm's lengths, in m.
+
+    Angles are in rad, counter-clockwise: the upper arm's from the x axis, the forearm's from the upper arm.
+    """
 
     upper_arm: float = 0.30
     forearm: float = 0.25
@@ -26,8 +29,8 @@ class TwoLinkArm:
         x, y = self.elbow_at(shoulder)
         return x + self.forearm * math.cos(shoulder + elbow), y + self.forearm * math.sin(shoulder + elbow)
 
-    def misses(self, shoulder: float, elbow: float, target: Point) -> float:
-        """Return how far (m) the hand is from a point; infinite for angles that are no numbers, or absurd ones."""
+    def hand_error(self, shoulder: float, elbow: float, target: Point) -> float:
+        """Return the distance (m) from the hand to a point, or infinity if an angle is NaN or infinite."""
         if not math.isfinite(shoulder + elbow):
             return math.inf
         return math.dist(self.hand_at(shoulder, elbow), target)
@@ -39,17 +42,17 @@ class TwoLinkArm:
 
     @property
     def parameters(self) -> dict[str, float]:
-        """Its lengths as the node's parameters."""
+        """The lengths, by the names of the node's parameters."""
         return {"upper_arm_length": self.upper_arm, "forearm_length": self.forearm}
 
     @property
     def nearest(self) -> float:
-        """How near (m) to the shoulder the hand can come."""
+        """The smallest possible distance (m) from the shoulder to the hand."""
         return abs(self.upper_arm - self.forearm)
 
     @property
     def farthest(self) -> float:
-        """How far (m) from the shoulder the hand can get."""
+        """The largest possible distance (m) from the shoulder to the hand."""
         return self.upper_arm + self.forearm
 
 

@@ -1,3 +1,3 @@
-"""Chapter 4: a service and an action of one's own, as definitions that build."""
+"""Chapter 4: definitions of a custom service and a custom action, which must build."""
 
 FILES = ("GetBatteryStatus.srv", "NavigateToPose.action")

@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def action_builds(run: Transcript) -> None:
 
 @check(points=2, on=ACTION, needs=action_builds, see="04_your_own_interfaces#anatomy", clauses=[3, 4, 11])
 def goal_has_its_fields(run: Transcript) -> None:
-    """Its goal has a pose with a frame, and a tolerance"""
+    """Its goal has the fields pose and tolerance"""
     require_fields(run, "goal", GOAL)
 
 

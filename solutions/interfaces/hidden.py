@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks."""
+"""The hidden checks, which only the instructor's grading runs."""
 
 from __future__ import annotations
 
@@ -18,5 +18,5 @@ def request_is_empty(run: Transcript) -> None:
 
 @check(points=2, on=ACTION, needs=action_builds, see="04_your_own_interfaces#anatomy", clauses=[6])
 def error_codes_have_names(run: Transcript) -> None:
-    """The result names its error codes, 0 to 3"""
+    """The result has named constants for the error codes 0 to 3"""
     require_constants(run, "result", "uint16", ERROR_CODES)

@@ -1,4 +1,4 @@
-"""Judges a definition by what the build reported about it."""
+"""Checks a definition, using the report of its build."""
 
 from __future__ import annotations
 
@@ -9,20 +9,25 @@ from typing import Any
 from autograder.authoring import Failure, Transcript, ev, expect, require_within_limits, unseen
 from autograder.authoring.failure import CannotBeJudged
 
-BUSY = 60.0  # s of processor time; a correct file needs 25
-NO_FILE = "there is no definition in this folder"  # what the build says then
-LONGEST = 300  # characters of what a verdict quotes
+MAX_PROCESSOR_TIME = 60.0  # s; a correct file needs 25
+NO_FILE = "there is no definition in this folder"  # the build's message for a missing file
+MAX_QUOTE = 300  # characters quoted in a failure
 
 
 def require_built(run: Transcript, wanted: Mapping[str, str] | None = None) -> dict[str, Any]:
     """Require that the file was built, and return its parts (request, …, feedback) with fields and constants.
 
-    `wanted` are the fields that the task asks for (name → ROS type), for a line that does not build.
+    `wanted` are the fields in the task (name → ROS type), used to advise on a line that does not build.
     """
     try:
         return _built(run, wanted or {})
-    except (AttributeError, KeyError, TypeError, ValueError) as error:  # it comes from the student's sandbox
-        raise unseen(run, f"the build's report is not whole: {error!r}") from None
+    except (
+        AttributeError,
+        KeyError,
+        TypeError,
+        ValueError,
+    ) as error:  # the report comes from the student's sandbox
+        raise unseen(run, f"the build's report is incomplete: {error!r}") from None
 
 
 def _built(run: Transcript, wanted: Mapping[str, str]) -> dict[str, Any]:
@@ -33,13 +38,13 @@ def _built(run: Transcript, wanted: Mapping[str, str]) -> dict[str, Any]:
     problems, more = report["problems"], report["more"]
     if not problems:
         _require_time_for_it(run)
-        raise CannotBeJudged(f"the build of a sound {file} failed: {report['log'][-2000:]}")
+        raise CannotBeJudged(f"the build of a correct {file} failed: {report['log'][-2000:]}")
     first, more = problems[0], more + len(problems) - 1
     expect(
         first["wrong"] != NO_FILE,
         expected=f"a file {file}",
         observed="it was not handed in",
-        help=f"Begin the cell that holds it with %%writefile {file}.",
+        help=f"Begin the cell with the definition with %%writefile {file}.",
     )
     place = f"line {first['line']}, “{first['text'].strip()}”: " if first["line"] else ""
     raise Failure(
@@ -70,9 +75,9 @@ def require_fields(run: Transcript, part: str, wanted: Mapping[str, str]) -> Non
         )
     expect(
         not others,
-        expected=f"nothing in the {part} but {_listed(wanted) if wanted else 'an empty part'}",
+        expected=f"only {_listed(wanted)} in the {part}" if wanted else f"no fields in the {part}",
         observed=f"also {_cut(', '.join(others))}",
-        help=f"Remove `{_cut(others[0]) if others else ''}`: everybody would have to fill and read it.",
+        help=f"Remove the field `{_cut(others[0]) if others else ''}`: every program would have to set and read it.",
     )
 
 
@@ -85,13 +90,13 @@ def require_constants(run: Transcript, part: str, ros_type: str, wanted: Mapping
         expect(
             observed == {"type": ros_type, "value": value},
             expected=f"the constant “{line}” in the {part}",
-            observed=f"“{observed['type']} {name}={str(observed['value'])[:LONGEST]}”"
+            observed=f"“{observed['type']} {name}={str(observed['value'])[:MAX_QUOTE]}”"
             if observed
             else "no constant of that name",
-            help=f"Write “{line}”: clients compare the number with that name."
+            help=f"Write “{line}”: clients compare error_code with this constant."
             if observed
             else _misplaced(run, part, "constants", name)
-            or f"Add the line “{line}” to the {part}: a comment is for people, programs cannot read it.",
+            or f"Add the line “{line}” to the {part}. A comment is not enough, as programs cannot read it.",
         )
 
 
@@ -102,32 +107,32 @@ def _what_to_write(problem: Mapping[str, Any], wanted: Mapping[str, str]) -> str
         name = problem["text"].partition("#")[0].split()[-1:]
         if name and name[0] in wanted:
             return f"Change line {line} to “{wanted[name[0]]} {name[0]}”."
-        return f"Change line {line}. What belongs there: {expected}."
+        return f"Change line {line}. Expected: {expected}."
     number, _, shape = expected.partition(": ")
     if shape and number.isdigit():
-        return f"Put {number} of these lines into it: {shape}."
-    return f"Change the file. What it needs: {expected}."
+        return f"Put {number} of these lines into the file: {shape}."
+    return f"Change the file. Expected: {expected}."
 
 
 def _misplaced(run: Transcript, part: str, what: str, name: str) -> str:
-    """Ask for the separator when a field or constant stands in another part, else return ""."""
+    """Return advice on a missing separator if a field or constant is in another part, else ""."""
     for other, content in require_built(run).items():
         if other != part and isinstance(content, dict) and name in (content.get(what) or {}):
-            return f"`{name}` is in the {other}. Is a --- missing or misplaced?"
+            return f"`{name}` is in the {other}: check whether a --- is missing or misplaced."
     return ""
 
 
 def _misnamed(name: str, candidates: Sequence[str]) -> str:
-    """Ask for the task's name when a single other field of the same type may be meant, else return ""."""
+    """Return advice on a misspelt name if exactly one other field has the same type, else ""."""
     if len(candidates) != 1:
         return ""
-    return f"Rename `{_cut(candidates[0])}` to `{name}`: programs find a field by its name, letter by letter."
+    return f"Rename `{_cut(candidates[0])}` to `{name}`: programs access a field by its exact name."
 
 
 def _why_this_type(wanted: str, written: str) -> str:
     if wanted.endswith("Stamped"):
-        return f"Write {wanted}: without the header nobody can say in which frame the numbers are."
-    return f"Write {wanted}: for a program {_cut(written)} is another type, and the two do not fit together."
+        return f"Write {wanted}: without a header the frame of the numbers is unknown."
+    return f"Write {wanted}: {_cut(written)} is a different type, and programs with the two types cannot communicate."
 
 
 def _part(run: Transcript, part: str) -> Any:
@@ -139,28 +144,31 @@ def _part(run: Transcript, part: str) -> Any:
         and all({"type", "value"} <= set(constant) for constant in found["constants"].values())
     )
     if not is_whole:
-        raise unseen(run, f"the build did not say all of the {part}")
+        raise unseen(run, f"the build's report on the {part} is incomplete")
     return found
 
 
 def _report(run: Transcript) -> dict[str, Any]:
-    """Read what the build printed at its end; it is a Failure if the file kept it from coming there."""
+    """Return the report that the build printed at its end; a `Failure` if the file kept the build from finishing."""
     try:
         return json.loads(run.output("stdout"))
     except ValueError:
         require_within_limits(run)
         _require_time_for_it(run)
-        raise unseen(run, f"the build said nothing: {run.last_words or 'nothing on stderr either'}") from None
+        raise unseen(
+            run, f"the build printed no report: {run.last_words or 'nothing on stderr either'}"
+        ) from None
 
 
 def _require_time_for_it(run: Transcript) -> None:
-    """Require that the build has not used more time than any correct file needs."""
+    """Require that the build did not use more time than any correct file needs."""
     usage = run.first(ev.NodeUsage)
-    if usage and usage.cpu > BUSY:
+    if usage and usage.cpu > MAX_PROCESSOR_TIME:
         raise Failure(
             expected=f"{run.params['file']} to build within some seconds",
-            observed=f"its build was ended after {usage.cpu:.0f} s of a processor",
-            help="Leave out what the task does not ask for, such as arrays of a fixed size: all of it is compiled.",
+            observed=f"its build was stopped after {usage.cpu:.0f} s of processor time",
+            help="Leave out everything that the task does not require, such as arrays of a fixed size: it takes time "
+            "to compile.",
         )
 
 
@@ -169,4 +177,4 @@ def _listed(fields: Mapping[str, str]) -> str:
 
 
 def _cut(text: str) -> str:
-    return text if len(text) <= LONGEST else f"{text[:LONGEST]}…"
+    return text if len(text) <= MAX_QUOTE else f"{text[:MAX_QUOTE]}…"

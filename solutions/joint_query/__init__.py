@@ -1,1 +1,1 @@
-"""Chapter 2: a service that answers with the positions of joints, by name."""
+"""Chapter 2: a service that responds with the positions of joints, by name."""

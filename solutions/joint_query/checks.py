@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from autograder.authoring import RESTING, check_of, in_order, standard
 
 from . import model
 
-# Joints that stand at different angles, one twice, in an order that is neither the robot's nor the alphabet's.
+# Joints at different angles, one of them twice, neither in the robot's order nor sorted.
 SOME_JOINTS = ["r_knee", "l_shoulder_roll", "r_shoulder_roll", "r_knee", "l_hip_pitch", "l_elbow"]
 SOME_JOINTS += ["r_shoulder_pitch"]
 POSTURE = {"r_elbow": -0.9, "l_wrist_yaw": 0.3, "l_shoulder_pitch": -0.5}  # rad
@@ -45,7 +45,7 @@ no_names_means_all = check_of(model.lists_every_joint_once, on=ASK, needs=finds_
 
 follows_the_robot = check_of(
     [model.finds_the_joints, model.positions_are_the_last],
-    title="When the arms have moved, so has the answer, in any order of the joints; in a silence the last one stays",
+    title="It follows the arms' motion, in any order of the joints, and keeps the last positions during a pause",
     on=MOVED,
     needs=positions_are_the_robots,
     see="02_services#diagram",
@@ -53,7 +53,7 @@ follows_the_robot = check_of(
 
 names_every_unknown_joint = check_of(
     [model.refuses_unknown_joints, model.names_every_unknown_joint, model.finds_the_joints],
-    title="Unknown joints: success: false and a message that names each of them; then it serves on",
+    title="For unknown joints it responds with success false and a message with each name; then it works as before",
     points=2,
     on=STRANGE,
     needs=finds_the_joints,
@@ -61,7 +61,7 @@ names_every_unknown_joint = check_of(
 
 says_when_it_knows_nothing = check_of(
     [model.never_waits, model.says_when_it_knows_nothing],
-    title="Before the first joint_states it answers at once with success: false, whatever was asked",
+    title="Before the first joint_states it responds to any request at once with success false",
     on=UNPLUGGED,
     needs=server_appears,
     see=KNOWS_NOTHING,

@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks."""
+"""The hidden checks, which only the instructor's grading runs."""
 
 from __future__ import annotations
 
@@ -23,7 +23,10 @@ MOST_AT_ONCE = 8  # a service keeps its last 10 requests
 
 
 def _steps(random: Random) -> dict[str, Any]:
-    """Ask before the first message, then in any order: other readings and orders, silences, strangers, many at once."""
+    """Call the service before the first message, then in any order.
+
+    With other positions and orders of the joints, during pauses, for unknown names, and many times at once.
+    """
 
     def joints() -> list[str]:
         return random.sample([*JOINTS, *FINGERS], random.randint(1, 5))
@@ -91,7 +94,7 @@ in_any_order = partial(check_of, on=ANY_ORDER)
 
 recovers_when_the_sensors_appear = check_of(
     [model.finds_the_joints, model.positions_are_the_last],
-    title="Once the first message has come, it answers with it",
+    title="After the first message it responds with that message",
     on=UNPLUGGED,
     needs=[checks.positions_are_the_robots, checks.says_when_it_knows_nothing],
     see=KNOWS_NOTHING,
@@ -105,13 +108,13 @@ answers_in_any_posture = in_any_order(
         model.lists_every_joint_once,
         model.says_when_it_knows_nothing,
     ],
-    title="Whatever came before, and however long the robot is silent, it answers with the last message as it came",
+    title="It responds with the last message unchanged, also after any pause and any earlier messages",
     needs=checks.follows_the_robot,
 )
 
 answers_every_request = in_any_order(
     [model.answers_in_time, model.never_waits, model.keeps_the_order_asked],
-    title="Every request is answered at once with its own joints, also eight different ones together",
+    title="Every request gets its own joints at once, also eight different requests together",
     needs=checks.keeps_the_order_asked,
     see="02_services#m4-why",
 )
@@ -120,7 +123,7 @@ looks_joints_up_by_name = in_any_order(model.goes_by_names_not_places, needs=che
 
 takes_no_joint_for_another = in_any_order(
     [model.refuses_unknown_joints, model.names_every_unknown_joint],
-    title="Names count letter by letter: unknown ones among known ones, parts, capitals and blanks are refused by name",
+    title="It compares names exactly: unknown names, parts, other capitals or blanks get success false",
     needs=checks.names_every_unknown_joint,
 )
 

@@ -1,4 +1,4 @@
-"""What must hold of every answer of the joint query, clause by clause, in every scenario."""
+"""What must hold for every response of the joint query, clause by clause, in every scenario."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ from . import advice, truth
 from .advice import asked, contains_name, described, listed, quoted
 
 SERVICE = "get_joint_positions"
-# A busy machine may hold up a message, but not most of them, while it passes the requests to the same node: more than
-# MOST_STALE of at least ENOUGH_PAIRS answers are the same as the one before only if the node answers from an old table.
-# (Measured: 0 of 11 of a sound node, also at a load of 8; 8 of 11 of a table that is renewed twice a second.)
-ENOUGH_PAIRS, MOST_STALE = 6, 0.4
+# A busy machine may delay some messages, but not most of them. If at least MIN_PAIRS responses have a predecessor and
+# more than MAX_STALE of them equal it, the node responds from an old table. (Measured: 0 of 11 for a correct node, also
+# at a load of 8; 8 of 11 for a table that is renewed twice a second.)
+MIN_PAIRS, MAX_STALE = 6, 0.4
 
 
 def _knowledge(call: Call) -> str:
@@ -40,22 +40,22 @@ never_waits = answers_from_memory(SERVICE, _knowledge, clause=6)
 
 @obligation(1, 2, of=calls(SERVICE), see="01_robot_and_graph#joints-intro")
 def finds_the_joints(call: Call) -> str | None:
-    """Asked for joints that the robot has, or for all, it answers success: true"""
+    """If the request has only joints of the robot, or no names, the response has success true"""
     if not truth.ought_to_succeed(call):
         return None
-    deaf = truth.is_deaf(call)
+    unsubscribed = truth.is_unsubscribed(call)
     call.require(
         call.response.success,
         expected=f"success: true for {asked(call)}, which the robot has",
         observed=shown_fields(call.response, "success", "message"),
-        help=advice.not_heard(call) if deaf else advice.on_refusal(call),
+        help=advice.not_heard(call) if unsubscribed else advice.on_refusal(call),
         see=lesson_on_hearing(call.run, "joint_states"),
     )
-    return "without a message" if deaf else truth.situation(call)
+    return "without a subscription" if unsubscribed else truth.situation(call)
 
 
 def _is_a_success(call: Call) -> bool:
-    """Return whether it answered success where it should; require it if no such call of the run did."""
+    """Return whether a call that should succeed did; require it if no call of the run succeeded."""
     if not truth.ought_to_succeed(call):
         return False
     answered = [each for each in call.run.all(ev.ServiceAnswered) if getattr(each.response, "success", False)]
@@ -65,14 +65,14 @@ def _is_a_success(call: Call) -> bool:
 
 
 def _require_heard(call: Call) -> None:
-    """Require that no joints are answered with that the robot had nobody to tell of."""
-    if not truth.is_deaf(call):
+    """Require that a node without a subscription to joint_states does not respond with joints."""
+    if not truth.is_unsubscribed(call):
         return
     joints = call.response.joint_state
     call.require(
         not call.response.success,
-        expected="an answer from the robot's joint_states",
-        observed=f"{described(joints.name, joints.position)}, although no joint_states had reached your node",
+        expected="a response from the robot's joint_states",
+        observed=f"{described(joints.name, joints.position)}, although your node had received no joint_states",
         help=advice.not_heard(call),
         see=lesson_on_hearing(call.run, "joint_states"),
     )
@@ -80,13 +80,13 @@ def _require_heard(call: Call) -> None:
 
 @obligation(1, of=calls(SERVICE), see="01_robot_and_graph#joints-run")
 def keeps_the_order_asked(call: Call) -> str | None:
-    """joint_state.name holds the names asked for, in the order of the request, one twice if it was asked for twice"""
+    """joint_state.name has the names of the request in the same order, including repeated ones"""
     wanted, names = list(call.request.names), list(call.response.joint_state.name)
     if not wanted or not _is_a_success(call):
         return None
     call.require(
         names == wanted,
-        expected=f"joint_state.name as asked: {listed(wanted)}",
+        expected=f"joint_state.name as in the request: {listed(wanted)}",
         observed=listed(names),
         help=advice.on_names(call, names, wanted),
     )
@@ -95,7 +95,7 @@ def keeps_the_order_asked(call: Call) -> str | None:
 
 @obligation(2, of=calls(SERVICE), see="01_robot_and_graph#joints-intro")
 def lists_every_joint_once(call: Call) -> str | None:
-    """To an empty list it answers with every joint of the robot, once"""
+    """For an empty list the response has every joint of the robot, once"""
     _require_heard(call)
     if call.request.names or not _is_a_success(call):
         return None
@@ -105,14 +105,14 @@ def lists_every_joint_once(call: Call) -> str | None:
         sorted(names) == sorted(joints),
         expected=f"all {len(joints)} joints of the robot, each once, in any order",
         observed=f"{len(names)} names; missing: {listed(missing)}",
-        help="When request.names is empty, answer as if every name of the last joint_states had been asked for.",
+        help="If request.names is empty, use every name of the last joint_states instead.",
     )
     return "all joints"
 
 
 @obligation(1, 2, 5, of=calls(SERVICE), see="01_robot_and_graph#joints-run")
 def positions_are_the_last(call: Call) -> str | None:
-    """Each position is that of the joint beside it, as it came in the last joint_states that has arrived"""
+    """Each position is that of the joint with the same index, unchanged from the last joint_states"""
     names, positions = list(call.response.joint_state.name), list(call.response.joint_state.position)
     _require_heard(call)
     if not _is_a_success(call) or not (call.request.names or names):
@@ -123,7 +123,7 @@ def positions_are_the_last(call: Call) -> str | None:
         expected=f"a position for each of {asked(call)}, and as many positions as names",
         observed=f"{len(names)} names and {len(positions)} positions"
         + (f", none for {listed(missing)}" if missing else ""),
-        help="Fill joint_state.name and joint_state.position together, a pair for every name of the request."
+        help="Fill joint_state.name and joint_state.position together, with one pair for every name of the request."
         + advice.about_repeats(call),
     )
     tables = [truth.positions_by_name(message) for message in known_messages(call, JOINTS) or ()]
@@ -134,7 +134,7 @@ def positions_are_the_last(call: Call) -> str | None:
     wrong, last = [names[i] for i in off], tables[-1]
     call.require(
         not off,
-        expected=f"as in the last joint_states: {described(wrong, [last.get(name, math.nan) for name in wrong])}",
+        expected=f"the last joint_states: {described(wrong, [last.get(name, math.nan) for name in wrong])}",
         observed=described(wrong, [positions[i] for i in off]),
         help=advice.on_positions(call, names, positions, last),
     )
@@ -143,7 +143,7 @@ def positions_are_the_last(call: Call) -> str | None:
 
 @obligation(5, of=calls(SERVICE), see="01_robot_and_graph#joints-run")
 def goes_by_names_not_places(call: Call) -> str | None:
-    """When joint_states lists the joints in another order, each position is still its own joint's"""
+    """When joint_states changes the order of joints, every position is still that of its joint"""
     orders = [message.names for message in known_messages(call, JOINTS) or ()]
     changed = any(names != truth.robot_joints(call.run) for names in orders)
     return finds_the_joints.require(call) and positions_are_the_last.require(call) if changed else None
@@ -151,24 +151,24 @@ def goes_by_names_not_places(call: Call) -> str | None:
 
 @obligation(5, of=whole_run)
 def keeps_up_with_a_motion(run: Transcript) -> str | None:
-    """While a joint moves, an answer differs from the one before: none comes from a table renewed at intervals"""
+    """While a joint moves, responses differ from one to the next, as they come from the last message"""
     answers = [call for call in calls(SERVICE)(run) if _is_a_success(call)]
     pairs = [(one, other) for one, other in pairwise(answers) if truth.moved_between(one, other)]
-    if len(pairs) < ENOUGH_PAIRS:
+    if len(pairs) < MIN_PAIRS:
         return None
     same = [other for one, other in pairs if other.response.joint_state == one.response.joint_state]
     (same or answers)[0].require(
-        len(same) <= MOST_STALE * len(pairs),
-        expected=f"another answer each time, as {asked(pairs[0][0])} moved and joint_states went on in between",
-        observed=f"{len(same)} of {len(pairs)} answers were the same as the one before",
-        help="Keep the message itself each time one arrives, and look the joints up in it at each request.",
+        len(same) <= MAX_STALE * len(pairs),
+        expected=f"a different response each time, as {asked(pairs[0][0])} moved and new joint_states came in between",
+        observed=f"{len(same)} of {len(pairs)} responses were equal to the one before",
+        help="Store every joint_states message when it comes, and look up the joints in it in each request.",
     )
     return "while a joint moves"
 
 
 @obligation(3, of=calls(SERVICE), see="02_services#set-refuse-why")
 def refuses_unknown_joints(call: Call) -> str | None:
-    """Asked for a name that no joint of the robot has, letter by letter, it answers success: false"""
+    """If the request has a name that is not exactly that of a joint, the response has success false"""
     _require_heard(call)
     if not truth.must_know(call) or not (unknown := truth.unknown_names(call)):
         return None
@@ -177,7 +177,7 @@ def refuses_unknown_joints(call: Call) -> str | None:
         not call.response.success,
         expected=f"success: false for {asked(call)}, because the robot has no {quoted(unknown)}",
         observed=shown_fields(call.response, "success", "message"),
-        help="The message names the unknown joints, but success is true: leave response.success False."
+        help="Your message has the unknown joints, but success is true: leave response.success False."
         if any(contains_name(message, name) for name in unknown if name)
         else advice.on_strangers(call, unknown),
     )
@@ -186,7 +186,7 @@ def refuses_unknown_joints(call: Call) -> str | None:
 
 @obligation(3, of=calls(SERVICE))
 def names_every_unknown_joint(call: Call) -> str | None:
-    """The message of a refusal contains every unknown name as it was asked for"""
+    """With success false, the message contains every unknown name exactly as in the request"""
     if not truth.must_know(call) or not (unknown := truth.unknown_names(call)) or call.response.success:
         return None
     message = call.response.message
@@ -195,22 +195,22 @@ def names_every_unknown_joint(call: Call) -> str | None:
         not unnamed,
         expected=f"a message with every unknown joint: {quoted(unknown)}",
         observed=f"{message[:200]!r}, without {quoted(unnamed)}",
-        help="Collect the unknown names of the whole request before you answer, instead of stopping at the first."
+        help="Collect all unknown names of the request before you respond, instead of stopping at the first."
         if len(unnamed) < len(unknown)
-        else "Put the unknown names of this request into response.message, as they were asked for.",
+        else "Write the unknown names of this request into response.message, unchanged.",
     )
     return "one unknown" if len(set(unknown)) == 1 else "several unknown"
 
 
 @obligation(4, of=calls(SERVICE))
 def says_when_it_knows_nothing(call: Call) -> str | None:
-    """Before the first joint_states it answers success: false, whatever was asked"""
-    if truth.is_deaf(call) or known_messages(call, JOINTS) != []:
+    """Before the first joint_states every response has success false"""
+    if truth.is_unsubscribed(call) or known_messages(call, JOINTS) != []:
         return None
     call.require(
         not call.response.success,
         expected=f"success: false for {asked(call)}, because the robot has not published its joints yet",
         observed=shown_fields(call.response, "success", "message"),
-        help="Start with no message (None) and answer success: false as long as none has arrived.",
+        help="Initialise the stored message with None, and set success to false while it is None.",
     )
     return "names" if call.request.names else "all joints"

@@ -1,4 +1,4 @@
-"""What is done to a joint query. No expected answers here: this runs in the arena."""
+"""The steps of scenarios for a joint query. No expected responses here: this runs in the arena."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from autograder.arena.sequence import Steps, carry_out
 from autograder.arena.stage import Stage
 from humanoid_interfaces.srv import GetJointPositions
 
-ON_ITS_WAY = 1.2  # s; longer than the model lets a message be on its way, of which there are 20 a second
-MOTION = 1.0  # s of the robot's time from one posture to the next
-TURN = 3.0  # s of the robot's time for a motion that nobody waits for
-REST_TIME = 0.3  # s of it to come to rest
+DELIVERY_TIME = 1.2  # s; longer than the model allows for the delivery of a message
+MOTION_DURATION = 1.0  # s of the robot's time, from one posture to the next
+TURN_DURATION = 3.0  # s of the robot's time, for a motion during which the scenario goes on
+REST_TIME = 0.3  # s of the robot's time, to come to rest
 
 
 def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
-    """Ask for lists of names at once, move joints, change what joint_states says, wait; then press Ctrl-C."""
+    """Send several requests at once, move joints, change joint_states, wait, in the order of the steps; then SIGINT."""
     query = stage.service("get_joint_positions", GetJointPositions)
     stage.open()
 
@@ -23,13 +23,13 @@ def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
         return query.call_at_once([GetJointPositions.Request(names=list(names)) for names in lists])
 
     def move(posture: Mapping[str, float]) -> None:
-        stage.robot.move_joints(posture, MOTION)
-        stage.robot.wait(MOTION + REST_TIME)
-        stage.wait(ON_ITS_WAY)
+        stage.robot.move_joints(posture, MOTION_DURATION)
+        stage.robot.wait(MOTION_DURATION + REST_TIME)
+        stage.wait(DELIVERY_TIME)
 
     def let_arrive() -> None:
         stage.robot.wait_for_commands()
-        stage.wait(ON_ITS_WAY)
+        stage.wait(DELIVERY_TIME)
 
     carry_out(
         stage,
@@ -37,7 +37,7 @@ def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
         {
             "ask": ask,
             "move": move,
-            "turn": lambda joint, position: stage.robot.move_joints({joint: position}, TURN),
+            "turn": lambda joint, position: stage.robot.move_joints({joint: position}, TURN_DURATION),
             "read": stage.robot.set_joint_readings,
             "reverse": stage.robot.reverse_joint_states,
             "alternate": stage.robot.alternate_joint_states,

@@ -1,1 +1,1 @@
-"""A server of `fetch` that walks and grasps through two other action servers, and gives up safely on a low battery."""
+"""A `fetch` server that walks and grasps through two other action servers, and ends safely on a low battery."""

@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -52,13 +52,13 @@ server_appears = standard.server_appears(
 goes_to_the_table = on_good(model.sets_out, needs=server_appears)
 takes_the_object = on_good(
     model.takes_it,
-    title="When the robot has arrived, it has the object put onto the tray",
+    title="When the robot has arrived, it sends pick_and_place the goal to put the object onto the tray",
     points=2,
     needs=goes_to_the_table,
 )
 fetches = on_good(
     model.fetches_it,
-    title="It comes home, puts the object down, and then SUCCEEDS",
+    title="The robot comes home, the object is put down, and then fetch SUCCEEDS",
     points=2,
     needs=takes_the_object,
 )
@@ -68,13 +68,13 @@ once_it_sets_out = partial(check_of, needs=goes_to_the_table)
 rejects_what_is_knowably_wrong = once_it_sets_out(model.rejects_the_impossible, on=INTERRUPT)
 does_not_set_out_on_a_low_battery = once_it_sets_out(
     model.does_nothing_when_low,
-    title="With the battery at 0.12 it sends no goal to anybody, and ends ABORTED naming the battery",
+    title="With the battery at 0.12 fetch sends no goal to a child, and ends ABORTED naming the battery",
     on=LOW_BEFORE,
     see=BATTERY_LESSON,
 )
 says_why_a_child_failed = once_it_sets_out(
     model.says_who_failed,
-    title="A child that is rejected or aborts ends fetch ABORTED; error_msg names the action and holds the child's "
+    title="If a child is rejected or aborted, fetch ends ABORTED; error_msg has the action's name and the child's "
     "reason",
     points=2,
     on=FAILING,
@@ -82,14 +82,14 @@ says_why_a_child_failed = once_it_sets_out(
 )
 cancels_a_silent_child = once_it_sets_out(
     [*model.always, model.cancels_the_silent, model.gives_up_the_silent],
-    title="A child that is silent for 5 s is canceled; when it has ended, fetch ends ABORTED naming the action",
+    title="A child without feedback for 5 s is canceled; when it has ended, fetch ends ABORTED naming the action",
     points=2,
     on=SILENT,
     see=SILENCE_LESSON,
 )
 cancels_a_late_child = check_of(
     [model.cancels_the_late, model.gives_up_the_unanswered],
-    title="A child that is accepted after its 5 s are over is canceled at once: nobody waits for it any more",
+    title="A child that is accepted only after more than 5 s is canceled at once, as fetch no longer waits for it",
     points=2,
     on=LATE,
     needs=cancels_a_silent_child,
@@ -97,13 +97,14 @@ cancels_a_late_child = check_of(
 )
 cancel_goes_down = once_it_sets_out(
     model.obeys_a_cancel,
-    title="A cancel goes down to the child at work, and fetch is CANCELED when the child has ended",
+    title="A cancel of fetch also cancels the active child, and fetch is CANCELED when the child has ended",
     points=3,
     on=CANCELED_WALK,
 )
 new_goal_preempts_the_old = check_of(
     [*model.gives_way, model.ends_well],
-    title="A new goal preempts the old one: its child is canceled and ends, then the old is ABORTED and the new begins",
+    title="A new goal preempts the old: the old goal's child is canceled; when it has ended, the old goal is ABORTED "
+    "and the new one begins",
     points=2,
     on=PREEMPTED,
     needs=[cancel_goes_down, fetches],
@@ -111,14 +112,16 @@ new_goal_preempts_the_old = check_of(
 )
 gives_up_before_the_grasp = once_it_sets_out(
     model.stops_in_time,
-    title="When the battery drops before the grasp, it cancels the child, waits for its end, goes home, and is ABORTED",
+    title="If the battery gets low before the grasp, the child is canceled; then the robot goes home, and fetch is "
+    "ABORTED",
     points=3,
     on=TO_THE_TABLE,
     see=GIVES_UP,
 )
 finishes_placing_first = check_of(
     model.finishes_first,
-    title="When the battery drops while the hand holds the object, it is placed first; then home, and ABORTED",
+    title="If the battery gets low while the hand holds the object, it is placed first; then the robot goes home, and "
+    "fetch is ABORTED",
     points=3,
     on=HOLDING,
     needs=takes_the_object,

@@ -1,4 +1,7 @@
-"""Two played actions and a played battery for a fetching server. No expected answers here: this runs in the arena."""
+"""Scenarios for a fetch server, with two scripted actions and a scripted battery.
+
+No expected responses here: this runs in the arena.
+"""
 
 from __future__ import annotations
 
@@ -18,26 +21,30 @@ from humanoid_interfaces.action import NavigateToPose, PickAndPlace
 
 NAVIGATE, PICK = "navigate_to_pose", "pick_and_place"
 STAGES = ("approaching", "grasping", "lifting", "moving", "placing", "retreating")
-KNOWN_TIME = 1.5  # s for the battery's level, and for the servers, to be known to the node
-WHOLE = 25.0  # s for a fetch
-IN_VAIN = 3.0  # s for the others, when one has not ended
-UNDER_WAY = 3  # feedback messages of a walk, or of a stage
-EVERY = 0.2  # s between two of them
-WALK = 1.6  # s
-STAGE = 0.4  # s
-FORCES = (14.5, 13.5)  # N, in turn
+DISCOVERY_TIME = 1.5  # s for the node to receive the battery's level and discover the servers
+RESULT_TIMEOUT = 25.0  # s for a fetch
+SHORT_TIMEOUT = 3.0  # s for every fetch after one that timed out
+UNDER_WAY = 3  # feedback messages; a walk or a stage that has sent so many is under way
+FEEDBACK_PERIOD = 0.2  # s
+WALK_DURATION = 1.6  # s
+STAGE_DURATION = 0.4  # s
+FORCES = (14.5, 13.5)  # N, of the goals of pick_and_place in turn
 Script = Mapping[str, Any]
 
 
 def in_order(
     stage: Stage, battery: float | None, walks: Sequence[Script], picks: Sequence[Script], steps: Steps
 ) -> None:
-    """Offer both actions, whose goals the scripts treat one by one, and a battery, and carry out the steps.
+    """Offer both actions, each goal of which follows its script, and a battery, and carry out the steps.
 
-    A script of a walk says how long it `takes` (s), that of a pick how long each of its `stages` takes (s). Both may
-    say whether it is `accepted` (None: no answer) and after how long (`answered_after`); after how long it falls silent
-    (`silent_after`); how it `ends`, with which `code` and text (`said`); and how it `stops` when it is
-    canceled: whether it agrees (None: no answer), and how long it then takes. Times are s.
+    Keys of a script, all optional; times are in s:
+        takes: duration of a walk.
+        stages: duration of each stage of a pick.
+        accepted: whether the goal is accepted; None: no response.
+        answered_after: time until it is accepted or rejected.
+        silent_after: time after which it sends no more feedback.
+        ends, code, said: its final status, error_code and error_msg.
+        stops: whether it accepts a cancel (None: no response), and the time until it is canceled.
     """
     actions = {
         NAVIGATE: stage.offer_action(NAVIGATE, NavigateToPose, *map(_walk, walks)),
@@ -46,8 +53,8 @@ def in_order(
     topic = stage.offer_topic("battery_state", BatteryState, latched=True)
     fetch = stage.action("fetch", PickAndPlace)
     sent: dict[str, Goal] = {}
-    patience = [WHOLE]
-    before: dict[str, int] = {}  # goals that each action had been sent before the last one of fetch
+    timeout = [RESULT_TIMEOUT]
+    before: dict[str, int] = {}  # number of goals that each action had received before the last goal of fetch
 
     def publish(percentage: float) -> None:
         topic.publish(BatteryState(percentage=percentage, present=True))
@@ -63,24 +70,28 @@ def in_order(
         sent[name] = fetch.send_and_wait(goal, as_=name)
 
     def send(step: int) -> ScriptedAction:
-        """Wait until the child of a step (1 to 4) of the last fetch has come."""
+        """Wait until the goal for a step (1 to 4) of the last fetch has come."""
         action = actions[(PICK, NAVIGATE)[step % 2]]
         number, last = before[action.name] + (step + 1) // 2, list(sent.values())[-1]
-        stage.wait_until(lambda: action.goals >= number or last.has_ended, patience[0])
+        stage.wait_until(lambda: action.goals >= number or last.has_ended, timeout[0])
         return action
 
     def reach(step: int, at: str = "") -> None:
-        """Wait until the child of a step of the last fetch is under way, or at a stage."""
+        """Wait until the child for a step of the last fetch is under way, or at a stage."""
         action, last = send(step), list(sent.values())[-1]
         seconds = picks[min(action.goals, len(picks)) - 1].get("stages", {})
         earlier = STAGES[: STAGES.index(at)] if at else ()
-        number = action.feedbacks + UNDER_WAY + sum(_messages(seconds.get(each, STAGE)) for each in earlier)
-        stage.wait_until(lambda: action.feedbacks >= number or last.has_ended, patience[0])
+        number = (
+            action.feedbacks
+            + UNDER_WAY
+            + sum(_messages(seconds.get(each, STAGE_DURATION)) for each in earlier)
+        )
+        stage.wait_until(lambda: action.feedbacks >= number or last.has_ended, timeout[0])
 
     def end(name: str) -> None:
-        """Wait for the end of a fetch: long, unless another has kept the scenario waiting in vain."""
-        if sent[name].accepted and not sent[name].wait_for_result(patience[0]):
-            patience[0] = IN_VAIN
+        """Wait for the result of a fetch; only briefly if one has timed out before."""
+        if sent[name].accepted and not sent[name].wait_for_result(timeout[0]):
+            timeout[0] = SHORT_TIMEOUT
 
     vocabulary: Mapping[str, Callable[..., object]] = {
         "go": go,
@@ -97,12 +108,12 @@ def in_order(
     if battery is not None:
         publish(battery)
     stage.open()
-    stage.wait(KNOWN_TIME)
+    stage.wait(DISCOVERY_TIME)
     carry_out(stage, steps, vocabulary)
 
 
 def _walk(script: Script) -> GoalScript:
-    takes = script.get("takes", WALK)
+    takes = script.get("takes", WALK_DURATION)
     way = [
         NavigateToPose.Feedback(
             status="walking", distance_remaining=1.2 * 0.95**number, current_pose=_pose(0.0, 0.0, 0.0)
@@ -113,7 +124,7 @@ def _walk(script: Script) -> GoalScript:
 
 
 def _pick(script: Script, force: float) -> GoalScript:
-    seconds = {**dict.fromkeys(STAGES, STAGE), **script.get("stages", {})}
+    seconds = {**dict.fromkeys(STAGES, STAGE_DURATION), **script.get("stages", {})}
     stages = [each for each in STAGES for _ in range(_messages(seconds[each]))]
     work = [
         PickAndPlace.Feedback(
@@ -138,7 +149,7 @@ def _script(script: Script, feedback: Sequence[Any], takes: float, result: Any) 
         accepted=script.get("accepted", True),
         after=script.get("answered_after", 0.0),
         feedback=feedback[: _messages(script.get("silent_after", takes))],
-        every=EVERY,
+        every=FEEDBACK_PERIOD,
         ends_after=takes,
         status=getattr(GoalStatus, f"STATUS_{script.get('ends', 'SUCCEEDED')}"),
         result=result,
@@ -147,7 +158,7 @@ def _script(script: Script, feedback: Sequence[Any], takes: float, result: Any) 
 
 
 def _messages(seconds: float) -> int:
-    return round(seconds / EVERY)
+    return round(seconds / FEEDBACK_PERIOD)
 
 
 def _goal(

@@ -1,4 +1,4 @@
-"""Scenarios as data: fetches one after the other, with the scripts of their children and what happens meanwhile."""
+"""Scenarios as data: several fetches in sequence, with the scripts of their children and the events during them."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from autograder.authoring import Scenario
 
 Steps = list[list[Any]]
 Script = Mapping[str, Any]
-LONG_WALK_TIME = 4.0  # s of a walk in which something happens
-AT_WORK = 2.6  # s of such a stage
-AFTERWARDS = 1.5  # s after a result in which nothing more may be asked for
-CHARGED = 0.8
+LONG_WALK_TIME = 4.0  # s, the duration of a walk during which an event happens
+LONG_STAGE_TIME = 2.6  # s, the duration of a stage during which an event happens
+AFTERWARDS = 1.5  # s after a result, in which the server must not send a goal
+CHARGED = 0.8  # percentage in battery_state, from 0 to 1
 
 
 @dataclass(frozen=True)
 class Part:
-    """A piece of a scenario: its steps, and the scripts of the walks and picks that a right server sends in it."""
+    """A part of a scenario: its steps, and the scripts for the walks and picks that a correct server sends in it."""
 
     steps: Steps
     walks: Sequence[Script] = ()
@@ -28,18 +28,19 @@ class Part:
 def fetch(
     name: str, *events: list[Any], cup: Sequence[Any] = (), children: Sequence[Script] = ({}, {}, {}, {})
 ) -> Part:
-    """Return a fetch during which events happen: steps that are carried out when it is accepted.
+    """Return a fetch during which events happen: steps that are carried out after it is accepted.
 
-    `cup` is what its goal says (object_id, x, y, z, force, yaw), `children` are the scripts of its walks and picks.
+    `cup` has the fields of its goal (object_id, x, y, z, force, yaw), `children` the scripts of its walks and picks.
     """
     steps = [["go", name, *cup], *events, ["end", name], ["wait", AFTERWARDS]]
     return Part(steps, children[::2], children[1::2])
 
 
 def drop(name: str, level: float, last: int, at: str = "", *events: list[Any], **script: Any) -> Part:
-    """Return a fetch whose battery falls to a level when the child of its last step is under way, or at a stage.
+    """Return a fetch during which the battery falls to a level when the child of step `last` is under way.
 
-    `events` come right after, and when fetch has ended, the battery is charged. `script` is that of the child.
+    `at` is the stage of that child at which this happens, `script` its script. `events` follow at once. When fetch has
+    ended, the battery is charged.
     """
     part = fetch(name, _reach(last, at), ["battery", level], *events, children=_children(last, at, script))
     home: list[Script] = [{}] if last < 3 else []  # the walk of a robot that gives up
@@ -47,12 +48,12 @@ def drop(name: str, level: float, last: int, at: str = "", *events: list[Any], *
 
 
 def cancel(name: str, last: int, at: str = "", **script: Any) -> Part:
-    """Return a fetch that is canceled when the child of a step is under way, or at a stage."""
+    """Return a fetch that is canceled when the child of step `last` is under way, or at the stage `at`."""
     return fetch(name, _reach(last, at), ["cancel", name], children=_children(last, at, script))
 
 
 def preempt(old: str, new: str, last: int, at: str = "", cup: Sequence[Any] = (), **script: Any) -> Part:
-    """Return a fetch that a newer one preempts when the child of a step is under way, or at a stage."""
+    """Return a fetch that a newer one preempts when the child of step `last` is under way, or at the stage `at`."""
     first = fetch(old, _reach(last, at), children=_children(last, at, script))
     second = fetch(new, ["end", old], cup=cup)
     return Part(
@@ -61,7 +62,7 @@ def preempt(old: str, new: str, last: int, at: str = "", cup: Sequence[Any] = ()
 
 
 def levels(*percentages: float) -> Steps:
-    """Return the steps in which the battery has these levels."""
+    """Return steps that publish these levels of the battery."""
     return [step for each in percentages for step in (["wait", 0.4], ["battery", each])]
 
 
@@ -78,10 +79,10 @@ def scenario(*parts: Part, battery: float | None = CHARGED, **options: Any) -> S
 
 
 def _children(last: int, at: str, script: Script) -> list[Script]:
-    """Return scripts of which the last one has a walk or a stage that is long enough for something to happen in it."""
+    """Return scripts of which the last has a walk or a stage that is long enough for an event during it."""
     return [
         *({} for _ in range(last - 1)),
-        {"stages": {at: AT_WORK}, **script} if at else {"takes": LONG_WALK_TIME, **script},
+        {"stages": {at: LONG_STAGE_TIME}, **script} if at else {"takes": LONG_WALK_TIME, **script},
     ]
 
 

@@ -1,4 +1,4 @@
-"""What must follow: a fetch decides when it begins, and when each of its children has ended."""
+"""The right next step of a fetch, at each turn: when the fetch begins, and when each of its children has ended."""
 
 from __future__ import annotations
 
@@ -32,30 +32,43 @@ from ros_runtime.message_constants import GoalStatus, name_of
 from . import fetching
 from .fetching import HOME, NAVIGATE, PICK, PUT, SILENCE, SLACK, TABLE, TAKE, Child, Fetch
 
-AT_ONCE_TIME = 2.5  # s for what follows at once, and that 5 s may be exceeded by
+AT_ONCE_TIME = 2.5  # s for a step that must follow at once, and by which 5 s may be exceeded
 PLACES = {TABLE: (1.2, 0.0), HOME: (0.0, 0.0), TAKE: (1.45, 0.0, 0.72)}  # m in odom
 PREEMPTED = 6
-# Why a fetch goes on as it must.
-BEGINS, LOW_BEFORE, UNKNOWN = "the battery lasts", "the battery is low before", "the battery is unknown"
+# Reasons for a next step.
+BEGINS, LOW_BEFORE, UNKNOWN = (
+    "the battery is not low",
+    "the battery was low before the goal",
+    "the battery's level is unknown",
+)
 AT_TABLE, ON_TRAY, AT_HOME = "the robot is at the table", "the object is on the tray", "the robot is home"
-LOW_AWAY, LOW_AT_HOME, DONE = "the battery is low", "the battery is low, and it is home", "all is done"
+LOW_AWAY, LOW_AT_HOME, DONE = (
+    "the battery is low",
+    "the battery is low and the robot is home",
+    "all steps are done",
+)
 IS_CANCELED, IS_PREEMPTED, FAILED = "fetch was canceled", "a newer goal came", "a child failed"
-UNANSWERED, SILENT, NO_SERVER = "a goal had no answer for 5 s", "a child was silent", "there is no server"
-DEAD_END = (
-    "Waiting for a child in a callback blocks the only thread, and its answer never gets in: await the future in an "
-    "async execute callback, or use a MultiThreadedExecutor and callback groups that let the answers in."
+UNANSWERED, SILENT, NO_SERVER = (
+    "a goal had no response for 5 s",
+    "a child had no feedback for 5 s",
+    "there is no server",
+)
+DEADLOCK = (
+    "Waiting for a child in a callback blocks the only thread, so the child's response is never processed. Await the "
+    "future in an async execute callback, or use a MultiThreadedExecutor and callback groups that allow both callbacks "
+    "at the same time."
 )
 LATCHED = "subscribe to it with QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL), which is reliable."
-ACCEPT = "A rejection carries no reason: accept the goal, and abort it with error_msg naming the reason."
-ASK = (
-    "The order is: to the table, take the object, home, put it down. After each child, ask whether the fetch goes on: "
-    "has it failed, is it canceled, is the battery low?"
+ACCEPT = "A rejection carries no reason: accept the goal, then abort it with the reason in error_msg."
+NEXT_STEP = (
+    "The order is: to the table, take the object, home, put it down. After each child, check whether "
+    "the child failed, fetch is canceled or preempted, or the battery is low."
 )
 
 
 @dataclass(frozen=True)
 class End:
-    """An end that a fetch may come to: its status, what error_msg holds, error_code (None: any), and when (s)."""
+    """A possible end of a fetch: its status, words in error_msg, its error_code (None: any), and its time (s)."""
 
     status: int
     words: tuple[str, ...] = ()
@@ -66,13 +79,13 @@ class End:
 
 @dataclass(frozen=True)
 class Plan:
-    """Why a fetch goes on, and how: with one of these steps or ends."""
+    """The reason for a turn, and the moves that are right: steps or ends."""
 
     why: str
     moves: tuple[str | End, ...]
 
     def move(self, made: Child | ev.ResultReceived | None) -> str | End | None:
-        """Return the move that was made, judged by its action and status, or None if it is none of `moves`."""
+        """Return which of `moves` was made, by its action or status, or None."""
         for each in self.moves:
             if isinstance(each, End) and isinstance(made, ev.ResultReceived) and each.status == made.status:
                 return each
@@ -90,10 +103,10 @@ class Plan:
 
 @dataclass(frozen=True, eq=False)
 class Turn:
-    """A moment at which a fetch has to decide: at its beginning, or when a child is over.
+    """A time at which a fetch has to decide: at its start, or when a child has ended.
 
-    `after` is the child that is over, None at the beginning; `t` is when that is (s), `plan` what must follow, and
-    `made` what did: the next child, the end, or nothing.
+    `after` is the child that has ended, None at the start; `t` is the time (s), `plan` has the right moves, and `made`
+    is the move that the server made: the next child, the result, or None.
     """
 
     fetch: Fetch
@@ -110,7 +123,7 @@ def turns(*whys: str) -> Callable[[Transcript], list[Turn]]:
     ]
 
 
-# -- what must follow ------------------------------------------------------------------------------------------------
+# -- the right moves -------------------------------------------------------------------------------------------------
 
 
 def _turns(fetch: Fetch) -> list[Turn]:
@@ -133,7 +146,7 @@ def _turns(fetch: Fetch) -> list[Turn]:
 
 
 def _over(child: Child) -> float:
-    """Return when (s) a fetch knows that a child is over, or that it has to give it up."""
+    """Return when (s) a fetch knows that a child has ended, or no longer has to wait for it."""
     if child.is_late:
         return child.t + SILENCE
     if child.silent_at is not None:
@@ -144,12 +157,12 @@ def _over(child: Child) -> float:
 
 
 def _plan(fetch: Fetch, after: Child | None, t: float, *reasons: bool) -> Plan | None:
-    """Return what must follow at a time (s) if it is canceled, preempted, low on battery; None: no clause says."""
+    """Return the plan at a time (s), given whether fetch is canceled, preempted, low on battery; None: unspecified."""
     canceled, preempted, low = reasons
     stopped = canceled or preempted
     unclear = stopped and after and (after.is_late or after.rejected or after.silent_at)
     if (after is None and low and not stopped) or unclear or (after and after.is_silent_after_a_cancel):
-        return None  # no clause says which of two reasons counts
+        return None  # no clause says which of the two reasons counts
     if stopped:
         ends = (End(CANCELED, latest=t + AT_ONCE_TIME), End(ABORTED, code=PREEMPTED, latest=t + AT_ONCE_TIME))
         return Plan(IS_CANCELED if canceled else IS_PREEMPTED, ends[not canceled : 1 + preempted])
@@ -172,7 +185,10 @@ def _plan(fetch: Fetch, after: Child | None, t: float, *reasons: bool) -> Plan |
 
 
 def _next(fetch: Fetch, step: str, why: str, t: float) -> Plan:
-    """Return that a step follows, unless its server is not there within 5 s; at first it may look for both."""
+    """Return the plan with this step, or with the end if its server is missing for 5 s.
+
+    At the start, fetch may also check for both servers.
+    """
     given_up = t + SILENCE
     missing = {
         action: End(ABORTED, (action,), soonest=given_up - SLACK, latest=given_up + AT_ONCE_TIME)
@@ -185,7 +201,7 @@ def _next(fetch: Fetch, step: str, why: str, t: float) -> Plan:
 
 
 def _failure_of(child: Child, t: float, low: bool) -> Plan | None:
-    """Return how a child that failed ends the fetch, None for one that has not."""
+    """Return the plan after a child that failed, or None if it has not failed."""
     name, end = child.action, child.sent.finished
     if child.is_late:
         return Plan(UNANSWERED, (End(ABORTED, (name,), soonest=t - SLACK, latest=t + AT_ONCE_TIME),))
@@ -204,11 +220,11 @@ def _failure_of(child: Child, t: float, low: bool) -> Plan | None:
     return Plan(FAILED, (aborted,))
 
 
-# -- what did follow -------------------------------------------------------------------------------------------------
+# -- the moves that were made ----------------------------------------------------------------------------------------
 
 
 def require_turn(turn: Turn) -> str:
-    """Require that a fetch went on as it must, not before its child was over, and with the whole message; say why."""
+    """Require that a fetch made a right move after its child had ended, with the right message; return the step."""
     fetch, made, plan = turn.fetch, turn.made, turn.plan
     fetch.goal.require_accepted(ACCEPT)
     if turn.after and made:
@@ -221,9 +237,9 @@ def require_turn(turn: Turn) -> str:
     elif isinstance(made, Child):
         expect(
             made.t >= turn.t - SLACK,
-            expected="the first child of a newer goal after the end of the old one",
+            expected="the first child of a newer goal after the result of the old goal",
             observed=f"{_in_words(made)} {turn.t - made.t:.1f} s before that",
-            help="One fetch at a time: the new one waits for the old one's end before it sends anything.",
+            help="Run one fetch at a time: before the new goal sends anything, wait until the old goal has ended.",
             at=made.t,
         )
         _require_message(fetch, made)
@@ -231,24 +247,24 @@ def require_turn(turn: Turn) -> str:
 
 
 def require_over(child: Child, made: Child | ev.ResultReceived) -> None:
-    """Require that a child was over, or given up as silent, when its fetch went on."""
+    """Require that a child had ended, or sent no feedback for too long, when fetch made the next move."""
     patient = child.silent_at is not None and made.t >= _over(child) - SLACK
-    asked = f"you asked to cancel it {len(child.sent.cancels)} time(s)"
+    asked = f"your server sent {len(child.sent.cancels)} cancel request(s)"
     expect(
         patient
         or child.is_late
         or child.began is None
         or (child.ended is not None and child.ended <= made.t),
-        expected=f"nothing else as long as {child.action} is at work ({child.step})",
-        observed=f"{_in_words(made)} while {child.action} was still at work, and {asked}",
-        help="Wait for the child's own result, get_result_async(), also after cancel_goal_async(): the answer to the "
-        "cancel says only that the server will try.",
+        expected=f"no other goal and no result of fetch while {child.action} is active ({child.step})",
+        observed=f"{_in_words(made)} while {child.action} was still active; {asked}",
+        help="Wait for the child's result with get_result_async(), also after cancel_goal_async(): the response to a "
+        "cancel says only that the server will try to stop.",
         at=made.t,
     )
 
 
 def _not_made(turn: Turn) -> Exception:
-    """Return what to raise when a fetch went on in another way, or not at all."""
+    """Return the exception for a fetch that made a wrong move, or none."""
     goal, made, after = turn.fetch.goal, turn.made, turn.after
     if made is None:
         require_alive(goal.run)
@@ -258,8 +274,8 @@ def _not_made(turn: Turn) -> Exception:
         goal.require_result(turn.plan.moves[0].status)
     return Failure(
         expected=str(turn.plan),
-        observed=_in_words(made) if made else "nothing",
-        help=ASK if isinstance(made, Child) else _why_it_stopped(turn),
+        observed=_in_words(made) if made else "neither a goal nor a result",
+        help=NEXT_STEP if isinstance(made, Child) else _why_it_stopped(turn),
         at=made.t if made else goal.run.end,
     )
 
@@ -267,11 +283,11 @@ def _not_made(turn: Turn) -> Exception:
 def _in_words(made: Child | ev.ResultReceived | End) -> str:
     if isinstance(made, Child):
         return f"a goal to {made.action}"
-    return f"the end of fetch, {name_of(GoalStatus, made.status)}"
+    return f"the result of fetch, {name_of(GoalStatus, made.status)}"
 
 
 def _require_end(turn: Turn, end: End, result: ev.ResultReceived) -> None:
-    """Require the reason, the error_code and the time of a fetch's end."""
+    """Require that a fetch's result has the right error_msg, error_code and time."""
     why, said = turn.plan.why, result.result.error_msg
     if result.status == ABORTED and (unmeant := why_rclpy_aborted(turn.fetch.goal)):
         aborted = "rclpy aborted the goal"
@@ -280,20 +296,20 @@ def _require_end(turn: Turn, end: End, result: ev.ResultReceived) -> None:
         )
     expect(
         all(word.lower() in said.lower() for word in end.words),
-        expected=f"an error_msg that holds {' and '.join(map(shown, end.words))}, because {why}",
+        expected=f"an error_msg that contains {' and '.join(map(shown, end.words))}, because {why}",
         observed=f"error_msg: {shown(said)}",
-        help="Fill result.error_msg with what happened, in words, before you call abort().",
+        help="Write into result.error_msg what happened, in words, before you call abort().",
         at=result.t,
     )
     if end.code is not None:
-        help = "Copy error_code from the child's result into yours; after a newer goal it is PREEMPTED."
+        help = "Copy error_code from the child's result into yours; after a newer goal, set it to PREEMPTED."
         expect_field(result.result, "error_code", end.code, because=why, help=help, at=result.t)
     expect(
         end.soonest <= result.t <= end.latest,
-        expected=f"the end of fetch between {max(end.soonest, turn.t):.1f} and {end.latest:.1f} s, because {why}",
+        expected=f"the result of fetch between {max(end.soonest, turn.t):.1f} and {end.latest:.1f} s, because {why}",
         observed=f"it came at {result.t:.1f} s",
-        help="Count the 5 s of silence from the last that was heard of the child, and again from the request to cancel "
-        "it; make the terminal call and return as soon as nothing is left to wait for.",
+        help="Count the 5 s from the child's acceptance or last feedback, and another 5 s from your cancel request. "
+        "Call succeed(), abort() or canceled() and return as soon as there is nothing left to wait for.",
         at=result.t,
     )
 
@@ -303,26 +319,24 @@ def _why_it_stopped(turn: Turn) -> str:
     if unmeant := why_rclpy_aborted(goal):
         return unmeant
     if turn.plan.why == LOW_AWAY:
-        return "When the child that you canceled has ended, send HOME to navigate_to_pose before you abort."
+        return "When the child has ended, send navigate_to_pose the goal HOME and wait for its result before abort()."
     if goal.result and (said := goal.result.result.error_msg):
-        gave_up = f"Your server gave up by itself, with error_msg {shown(said)}"
+        gave_up = f"Your server aborted the goal, with error_msg {shown(said)}"
         levels = [each for each in turn.fetch.run.published("battery_state") if each.t <= goal.sent.t]
         if turn.after is None and len(levels) == 1 and "battery" in said:
             return f"{gave_up}. battery_state came once, before the goal: {LATCHED}"
         return f"{gave_up}: find out why."
     if goal.result:
-        return (
-            "execute made its terminal call too early: go on with the next step when a child has SUCCEEDED."
-        )
+        return "execute ended the goal too early: when a child has SUCCEEDED, go on with the next step."
     if place := where_it_waited(goal.run):
-        return f"execute stood in {place}. {DEAD_END}"
+        return f"execute was waiting in {place}. {DEADLOCK}"
     if turn.after and turn.after.sent.result_requested is None and turn.after.began is not None:
-        return "Ask for the child's result with get_result_async() once it is accepted."
-    return DEAD_END
+        return "Request the child's result with get_result_async() as soon as it is accepted."
+    return DEADLOCK
 
 
 def _require_message(fetch: Fetch, child: Child) -> None:
-    """Require that a child's goal is that of its step, but for the fields of which no clause speaks."""
+    """Require that a child's goal has the fields of its step; fields without a clause may have any value."""
     sent, wanted = child.sent.message, deepcopy(child.sent.message)
     place = wanted.pose if child.action == NAVIGATE else wanted.place_pose
     place.header.frame_id, place.pose.orientation = "odom", Quaternion(w=1.0)
@@ -337,8 +351,8 @@ def _require_message(fetch: Fetch, child: Child) -> None:
             sent,
             path,
             reduce(getattr, path.split("."), wanted),
-            because=f"the step is: {child.step}",
-            help="Copy object_id and grasp_force from goal_handle.request. The places are those of the task's table, "
-            "in odom, where a heading of 0 has orientation.w 1.0; at last it is place_pose of fetch's own goal.",
+            because=f"this is the step “{child.step}”",
+            help="Copy object_id and grasp_force from goal_handle.request. The task's table has the poses, in odom; a "
+            "heading of 0 is orientation.w 1.0. The last step uses place_pose of fetch's own goal.",
             at=child.t,
         )

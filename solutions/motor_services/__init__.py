@@ -1,1 +1,1 @@
-"""Chapter 2: two services that switch the robot's motors and tell whether they are on."""
+"""Chapter 2: two services, one that switches the robot's motors and one that reports whether they are on."""

@@ -1,4 +1,4 @@
-"""What to do about an answer of the motor services that is wrong, by what the record shows."""
+"""Advice on wrong responses of the motor services, from the record of the run."""
 
 from __future__ import annotations
 
@@ -6,31 +6,31 @@ import math
 
 from autograder.authoring import DELIVERY, Call, ev, shown, why_nothing_is_commanded, why_nothing_is_heard
 
-A_WAIT = 0.7  # s; an answer that takes longer waited for the robot
-LEAST_WAIT = 1.8  # s before an answer may say that the robot did not confirm: 2 s, less what clocks differ by
-WATCHED = 1.5  # s after an answer in which the motors would have followed it
-_FROM_THE_LAST = "Keep the last robot_state, and answer from motors_enabled in it."
+MIN_WAIT = 0.7  # s; a response that took longer waited for the robot
+MIN_CONFIRMATION_WAIT = 1.8  # s before a response may report a missing confirmation; the task says 2 s
+SWITCH_TIME = 1.5  # s after a response, within which the motors would have been switched
+_FROM_THE_LAST = "Keep the last robot_state, and respond according to its motors_enabled."
 _SAID = {"Motors: ON": True, "Motors: OFF": False}
 
 
 def on_status(call: Call, wanted: str) -> str:
-    """Say what is wrong about an answer of get_status."""
+    """Return advice on a wrong response of get_status."""
     response = call.response
     if response.message == wanted:
-        return "success tells whether the question could be answered, not whether the motors are on: set it to True."
+        return "Set success to True: it says whether the status is known, not whether the motors are on."
     if response.message.strip().rstrip(".").lower() == wanted.lower():
-        return f"The text is compared letter by letter, as a program would: {wanted!r}."
-    if deaf := why_nothing_is_heard(call.run, "robot_state"):
-        return f"{deaf} {_FROM_THE_LAST}"
+        return f"Spell the text exactly like this, as programs compare it: {wanted!r}."
+    if cause := why_nothing_is_heard(call.run, "robot_state"):
+        return f"{cause} {_FROM_THE_LAST}"
     if history := _history_of_the_status(call):
         return f"{history} {_FROM_THE_LAST}"
     if not response.success:
-        return "Your node gets robot_state: look at each request whether a message has come."
-    return f"Your node gets robot_state. {_FROM_THE_LAST}"
+        return "Your node receives robot_state: in each request check whether a message has come."
+    return f"Your node receives robot_state. {_FROM_THE_LAST}"
 
 
 def _history_of_the_status(call: Call) -> str:
-    """Return how get_status has answered so far: never another text, after the requests, or the opposite each time."""
+    """Return the pattern in the responses of get_status: constant, like the last request, or always inverted; or ''."""
     run = call.run
     said = [
         (_SAID[answer.response.message], asked.t)
@@ -42,54 +42,56 @@ def _history_of_the_status(call: Call) -> str:
         return ""
     truth = [[robot.motors_enabled for robot in run.ground_truth if robot.t <= t][-1:] for _on, t in said]
     if all(true == [not on] for (on, _t), true in zip(said, truth, strict=True)):
-        return "get_status said the opposite of the robot: true in motors_enabled means ON."
+        return "get_status reported the opposite of the robot's state: motors_enabled true means ON."
     asked_all = run.all(ev.ServiceCalled)
     requests = [(asked.t, asked.request.data) for asked in asked_all if asked.service == "enable_motors"]
     after = [(on, [data for asked_at, data in requests if asked_at < t][-1:]) for on, t in said]
     if any(asked for _on, asked in after) and all(asked in ([], [on]) for on, asked in after):
-        return "get_status followed your last request, not the robot."
+        return "get_status reported the last request to enable_motors, not the robot's state."
     if len({on for on, _t in said}) == 1 and len(said) > 1:
-        return "get_status never changed, though the robot's motors did."
+        return "get_status always reported the same, although the robot's motors were switched."
     return ""
 
 
 def on_power(call: Call) -> str:
-    """Say what the grader saw on motor_power."""
+    """Return what the grader received on motor_power, and advice."""
     run, wanted = call.run, call.request.data
-    publish = f"Publish Bool(data=request.data) on motor_power when {question(call)} is granted."
+    publish = f"Publish Bool(data=request.data) on motor_power when you accept {question(call)}."
     if seen := why_nothing_is_commanded(run, "motor_power", before=call.answered.t):
-        return f"On motor_power the grader saw {seen}. {publish}"
+        return f"On motor_power the grader received {seen}. {publish}"
     sent = [other.t for other in run.all(ev.ServiceCalled) if other.service == call.service]
     later = min((t for t in sent if t > call.sent.t), default=math.inf)
     received = [message for message in run.all(ev.MotorPowerReceived) if call.sent.t <= message.t < later]
     if not received:
-        return f"On motor_power the grader saw no message after the request. {publish}"
+        return f"On motor_power the grader received no message after the request. {publish}"
     if received[-1].on is not wanted:
-        return f"On motor_power the grader saw data: {shown(received[-1].on)}. {publish}"
-    return f"On motor_power the right message came, but too late. {publish}"
+        return f"On motor_power the grader received data: {shown(received[-1].on)}. {publish}"
+    return f"The right message came on motor_power, but too late. {publish}"
 
 
 def on_granting(call: Call, situation: str) -> str:
-    """Say what is wrong about a refusal that had no reason."""
-    if A_WAIT < call.latency < LEAST_WAIT:
-        return f"It gave up waiting for robot_state after {call.latency:.1f} s: wait for 2 to 4 s."
+    """Return advice on a request that was wrongly rejected."""
+    if MIN_WAIT < call.latency < MIN_CONFIRMATION_WAIT:
+        return f"Your server waited for robot_state for only {call.latency:.1f} s: wait for 2 to 4 s."
     before, after = _had_power(call, call.sent.t), _had_power(call, call.answered.t + DELIVERY)
     if before is not call.request.data and after is call.request.data:
-        return "The motors did as asked, but success is false: it says whether you grant the request, not what data is."
+        return "The motors were switched, but success is false: set it to True when you accept the request."
     if call.request.data:
-        return "Never refuse power on: refuse only data: false, and only while the last robot_state.mode is WALKING."
-    return f"Refuse power off only while the last robot_state.mode is WALKING: now it was {situation}."
+        return "Always accept data: true. Reject only data: false, and only if the last robot_state.mode is WALKING."
+    return f"Reject data: false only if the last robot_state.mode is WALKING. Here it was {situation}."
 
 
 def on_refusing(call: Call) -> str:
-    """Say what is wrong about a granted request that should have been refused."""
-    if _had_power(call, call.answered.t + WATCHED):
+    """Return advice on a request that was wrongly accepted."""
+    if _had_power(call, call.answered.t + SWITCH_TIME):
         if not call.response.message.strip():
-            return "Nothing was switched off, but success is true: set response.success = False, and say why."
-        return "Nothing was switched off, and the message refuses, but success is true: set response.success = False."
-    if deaf := why_nothing_is_heard(call.run, "robot_state"):
-        return f"{deaf} Without it the node cannot know that the robot walks."
-    return "Answer success: false, before you publish, when data is false and the last robot_state.mode is WALKING."
+            return "Nothing was switched off, but success is true: set response.success = False, and give the reason."
+        return "Nothing was switched off, but success is true: set response.success = False, which fits your message."
+    if cause := why_nothing_is_heard(call.run, "robot_state"):
+        return f"{cause} Without it the node cannot know that the robot walks."
+    return (
+        "If data is false and the last robot_state.mode is WALKING, set success to false and publish nothing."
+    )
 
 
 def _had_power(call: Call, t: float) -> bool | None:
@@ -99,7 +101,7 @@ def _had_power(call: Call, t: float) -> bool | None:
 
 
 def question(call: Call) -> str:
-    """Name a request, as a person would ask it."""
+    """Return a request in words: the service and its data."""
     data = getattr(call.request, "data", None)
     return call.service if data is None else f"{call.service} (data: {shown(data)})"
 

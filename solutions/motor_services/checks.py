@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from autograder.authoring import RESTING, check_of, in_order, standard
 
 from . import model
 
-# A stand holds the robot by its chest, so that it hangs limp without power and stands when it returns.
+# A stand holds the robot by its chest: without power it hangs limp, and with power it stands again.
 ON_A_STAND = ("--scene", "stand")
 UNPUBLISHED_ROBOT = (*RESTING, "--robot-state-unpublished")
 INTERRUPT = in_order(["ask", 1], interrupt=True)
@@ -37,14 +37,14 @@ server_appears = standard.server_appears("enable_motors and get_status", on=INTE
 
 tells_the_status = check_of(
     model.tells_the_motors,
-    title='get_status says "Motors: ON" while the motors are on',
+    title='get_status responds "Motors: ON" while the motors are on',
     on=INTERRUPT,
     needs=server_appears,
 )
 
 follows_the_robot = check_of(
     [model.tells_the_motors, model.status_in_time, model.status_from_memory],
-    title="When somebody else cuts the power and returns it, get_status says so, at once, whatever was commanded",
+    title="When another node switches the power, get_status reports it at once, whatever your node commanded",
     points=2,
     on=STATUS,
     needs=tells_the_status,
@@ -53,7 +53,7 @@ follows_the_robot = check_of(
 
 says_when_it_knows_nothing = check_of(
     [model.status_from_memory, model.says_when_it_knows_nothing],
-    title="Before the first robot_state, get_status answers success: false, at once",
+    title="Before the first robot_state, get_status responds at once with success false",
     on=SILENT_ROBOT,
     needs=server_appears,
     see=KNOWS_NOTHING,
@@ -63,8 +63,8 @@ powers_off = check_of(model.grants_power_off, points=2, on=SWITCH, needs=server_
 
 powers_on = check_of(
     [model.grants_power_on, model.power_in_time],
-    title="enable_motors with data: true is granted, also five at once and before the first robot_state, and the "
-    "motors have their torque again",
+    title="enable_motors with data true is accepted and switches the motors on, also before the first robot_state and "
+    "for five requests at once",
     on=[SWITCH, SILENT_ROBOT],
     needs=powers_off,
 )
@@ -77,7 +77,7 @@ refuses_off_while_walking = check_of(
         model.power_never_sleeps,
         model.grants_power_off,
     ],
-    title="While the robot walks, and only then, power off is refused with a sentence, and it walks on",
+    title="While the robot walks, and only then, power off is rejected with a sentence, and the robot walks on",
     points=3,
     on=WALK,
     needs=powers_off,

@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks."""
+"""The hidden checks, which only the instructor's grading runs."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from . import checks, model
 
 
 def _on_the_floor(random: Random) -> dict[str, Any]:
-    """Power while it walks in any direction but ahead, once it stands, as it falls, and as it lies on the floor.
+    """Switch the power while the robot walks sideways, back or in place, when it stands, falls, and lies on the floor.
 
-    Once robot_state stops while it walks.
+    In one step robot_state pauses while it walks.
     """
     side = random.choice((-1, 1))
     velocities = (
@@ -37,7 +37,7 @@ def _on_the_floor(random: Random) -> dict[str, Any]:
 
 
 def _on_the_stand(random: Random) -> dict[str, Any]:
-    """Power on and off before the first robot_state; then repeats, another node, silences, many at once."""
+    """Switch on and off before the first robot_state; then repeatedly, by another node, in pauses, and many at once."""
     first = random.choice((True, False))
     silence = round(random.uniform(0.5, 2.0), 1)
     blocks: list[list[list[Any]]] = [
@@ -45,7 +45,10 @@ def _on_the_stand(random: Random) -> dict[str, Any]:
         [["switch", True], ["switch_elsewhere", False], ["switch", True], ["settle"], ["ask", 1]],
         [
             *(["switch_elsewhere", False], ["switch", False], ["ask", 1], ["switch_and_ask", True, 5, 4]),
-            *(["settle"], ["switch_and_ask", True, 7, 2]),  # what is so already: no wait for a confirmation
+            *(
+                ["settle"],
+                ["switch_and_ask", True, 7, 2],
+            ),  # already on, so no need to wait for a confirmation
         ],
         [
             *(["switch_elsewhere", first], ["publish_state", False], ["switch_elsewhere", not first]),
@@ -66,14 +69,14 @@ OTHER_NAMESPACE = in_order(*SWITCH_AND_ASK, robot=checks.ON_A_STAND, namespace="
 
 refuses_however_it_walks = check_of(
     [model.refuses_power_off, model.lets_it_walk],
-    title="Turning on the spot, sideways or backwards is walking, too",
+    title="Power off is also rejected while the robot turns in place or walks sideways or backwards",
     on=FLOOR,
     needs=checks.refuses_off_while_walking,
 )
 
 refuses_nothing_else = check_of(
     [model.grants_power_on, model.grants_power_off, model.commands_only_what_was_granted],
-    title="Power on is always granted, and power off whenever it does not walk; a refused request never takes effect",
+    title="Power on is always accepted, power off unless the robot walks; a rejected request has no effect",
     points=2,
     on=[FLOOR, STAND],
     needs=checks.powers_on,
@@ -82,7 +85,7 @@ refuses_nothing_else = check_of(
 
 recovers_when_the_robot_speaks = check_of(
     model.tells_the_motors,
-    title="Once a robot_state has come, get_status answers with the last one, whatever happened before",
+    title="After the first robot_state, get_status reports the last one, whatever happened before",
     on=[checks.SILENT_ROBOT, STAND, FLOOR],
     needs=checks.tells_the_status,
     see=checks.KNOWS_NOTHING,
@@ -96,7 +99,7 @@ answers_every_request = check_of(
         model.power_in_time,
         model.power_never_sleeps,
     ],
-    title="Every request is answered in time, get_status from memory, also while nothing is known",
+    title="Every request gets its response in time, get_status from memory, also before the first robot_state",
     on=STAND,
     needs=checks.server_appears,
     see="02_services#m4-why",

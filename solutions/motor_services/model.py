@@ -1,4 +1,4 @@
-"""What must hold of every answer of the motor services, and of every command to the motors, in every scenario."""
+"""What must hold for every response of the motor services and every command to the motors, in every scenario."""
 
 from __future__ import annotations
 
@@ -30,24 +30,24 @@ from autograder.authoring.requirements.standard_obligations import (
 from ros_runtime.message_constants import RobotMode, name_of
 
 from . import advice
-from .advice import LEAST_WAIT, on_or_off, question
+from .advice import MIN_CONFIRMATION_WAIT, on_or_off, question
 
 ENABLE, STATUS = "enable_motors", "get_status"
 TEXTS = {True: "Motors: ON", False: "Motors: OFF"}
-PERIOD = 0.3  # s between two robot_state, and a little more
-SAMPLE = 0.1  # s; the record samples the robot at 50 Hz, and robot_state comes on every change
-OBEYED = 2.0  # s after the answer in which the command must have reached the robot
-IN_TIME = 2.0  # s for every answer
-UNCONFIRMED = 5.0  # s for one that waits for a confirmation that does not come
-CONFIRMED_TIME = FROM_MEMORY_TIME + PERIOD  # s for the fastest of several answers that wait for the robot
-STARTS_TO_WALK = 3.0  # s
+PERIOD = 0.3  # s, a little more than the period of robot_state
+SAMPLE = 0.1  # s; the record samples the robot at 50 Hz, and robot_state is published on every change
+COMMAND_TIMEOUT = 2.0  # s after the response, within which the command must reach the robot
+IN_TIME = 2.0  # s for every response
+UNCONFIRMED_TIMEOUT = 5.0  # s for a response that waits for a confirmation that does not come
+CONFIRMED_TIME = FROM_MEMORY_TIME + PERIOD  # s for the fastest of several responses that wait for the robot
+WALK_START_TIME = 3.0  # s
 
 
 # -- what the node can know -------------------------------------------------------------------------------------------
 
 
 def published_spans(run: Transcript) -> list[tuple[float, float]]:
-    """Return from when to when (s) the robot published robot_state to the node."""
+    """Return the begin and end (s) of the times in which the robot published robot_state while the node ran."""
     verbs = [step[1] for step in run.params.get("steps", ()) if step[0] == "publish_state"]
     ready = run.first(ev.NodeReady)
     changes = [(event.t, event.command["published"]) for event in run.commands("robot_state")]
@@ -60,9 +60,9 @@ def published_spans(run: Transcript) -> list[tuple[float, float]]:
 
 
 def last_states(call: Call) -> list[ev.RobotTruth] | None:
-    """Return what the node's last robot_state may have said between request and answer, oldest first.
+    """Return the states that the node's last robot_state may have had between request and response, oldest first.
 
-    It is empty if certainly none had come, and None if nobody can tell whether one had.
+    It is empty if certainly no robot_state had come, and None if that is uncertain.
     """
     end = call.answered.t + SAMPLE
     spans = [(start, stop) for start, stop in published_spans(call.run) if start <= call.answered.t]
@@ -80,7 +80,7 @@ def last_states(call: Call) -> list[ev.RobotTruth] | None:
 
 
 def _may_grant(call: Call) -> set[bool]:
-    """Return whether the request may be granted (True), or refused (False)."""
+    """Return the right decisions about the request: to accept (True), to reject (False), or both."""
     if call.request.data:
         return {True}
     states = last_states(call)
@@ -88,7 +88,7 @@ def _may_grant(call: Call) -> set[bool]:
 
 
 def _confirmed_at(call: Call) -> float | None:
-    """Return when (s) a robot_state after the request first said what was asked for; None: never."""
+    """Return when (s) a robot_state after the request first confirmed it, or None."""
     spans = published_spans(call.run)
     return next(
         (
@@ -102,23 +102,23 @@ def _confirmed_at(call: Call) -> float | None:
 
 
 def _waits_in_vain(call: Call) -> bool:
-    """Return whether an answer that waits for a robot_state to confirm it cannot be in time."""
+    """Return whether a response that waits for a confirmation by robot_state cannot come in time."""
     confirmed = _confirmed_at(call)
     return _may_grant(call) != {False} and (confirmed is None or confirmed > call.sent.t + IN_TIME - DELIVERY)
 
 
 def _commands(call: Call) -> list[ev.MotorPowerReceived]:
-    """Return the commands to the motors that the request may have led to."""
-    end = call.answer.t + OBEYED if call.answer else call.run.end
+    """Return the commands to the motors that the request may have caused."""
+    end = call.answer.t + COMMAND_TIMEOUT if call.answer else call.run.end
     commands = call.run.all(ev.MotorPowerReceived)
     return [each for each in commands if each.on is call.request.data and call.sent.t <= each.t <= end]
 
 
 def _was_not_confirmed(call: Call) -> bool:
-    """Return whether the answer may say that the command was sent, and that the robot did not confirm it in time."""
+    """Return whether the response may report that the robot did not confirm the command in time."""
     confirmed = _confirmed_at(call)
     return (
-        call.latency >= LEAST_WAIT
+        call.latency >= MIN_CONFIRMATION_WAIT
         and bool(_commands(call))
         and (confirmed is None or call.answered.t < confirmed + DELIVERY)
     )
@@ -130,7 +130,7 @@ def _situation(call: Call) -> str:
         return "before the first robot_state"
     modes = dict.fromkeys(name_of(RobotMode, robot.mode) for robot in states)
     silent = not any(start <= call.sent.t <= stop for start, stop in published_spans(call.run))
-    return "/".join(modes) + (", robot_state silent" if silent else "")
+    return "/".join(modes) + (", without new robot_state" if silent else "")
 
 
 # -- power ------------------------------------------------------------------------------------------------------------
@@ -138,13 +138,13 @@ def _situation(call: Call) -> str:
 
 @obligation(1, 2, of=calls(ENABLE), see="02_services#set-file")
 def grants_power_on(call: Call) -> str | None:
-    """Power on is always granted: success is true, and the command reaches the robot"""
+    """Power on is always accepted: success is true, and the command reaches the robot"""
     return _require_granted(call) if call.request.data else None
 
 
 @obligation(1, 2, of=calls(ENABLE), see="02_services#set-file")
 def grants_power_off(call: Call) -> str | None:
-    """Power off is granted unless the robot walks: success is true, and the command reaches the robot"""
+    """Power off is accepted unless the robot walks: success is true, and the command reaches the robot"""
     return _require_granted(call) if not call.request.data and _may_grant(call) == {True} else None
 
 
@@ -153,14 +153,14 @@ def _require_granted(call: Call) -> str:
     when = f"while the robot is {_situation(call)}" if last_states(call) else _situation(call)
     call.require(
         call.response.success or _was_not_confirmed(call),
-        expected=f"success: true to {question(call)} {when}",
+        expected=f"success: true for {question(call)} {when}",
         observed=shown_fields(call.response, "success", "message"),
         help=advice.on_granting(call, _situation(call)),
     )
     call.require(
         bool(_commands(call)),
-        expected=f"{question(call)} to reach the robot's motors within {OBEYED:.0f} s of the answer",
-        observed=f"nothing switched them {on_or_off(on)}, though the answer was success",
+        expected=f"{question(call)} to switch the robot's motors within {COMMAND_TIMEOUT:.0f} s of the response",
+        observed=f"they were not switched {on_or_off(on)}, although the response had success true",
         help=advice.on_power(call),
     )
     return _situation(call)
@@ -168,21 +168,21 @@ def _require_granted(call: Call) -> str:
 
 @obligation(2, of=calls(ENABLE), see="02_services#set-refuse-why")
 def refuses_power_off(call: Call) -> str | None:
-    """While the robot walks, power off is refused: success is false, and the message says why"""
+    """While the robot walks, power off is rejected: success is false, and the message gives the reason"""
     if (may := _may_grant(call)) == {True}:
         return None
     if may == {False}:
         call.expect(
             "success",
             False,
-            because="the robot was WALKING when power off was asked for",
+            because="the robot was WALKING when power off was requested",
             help=advice.on_refusing(call),
         )
     elif call.response.success:
         return None
     call.require(
         bool(call.response.message.strip()),
-        expected="a message that says why power off is refused",
+        expected="a message that says why power off is rejected",
         observed="an empty message",
         help='Set response.message, for example to "the robot is walking: stop it first".',
     )
@@ -191,7 +191,7 @@ def refuses_power_off(call: Call) -> str | None:
 
 @obligation(1, 2, of=whole_run)
 def commands_only_what_was_granted(run: Transcript) -> str:
-    """On motor_power comes what was granted, and nothing else: not when a request is refused, and not later"""
+    """On motor_power only accepted requests are published, nothing for rejected ones, and nothing later"""
     asked = calls(ENABLE)(run)
     for command in run.all(ev.MotorPowerReceived):
         causes = [call for call in asked if command in _commands(call)]
@@ -206,9 +206,9 @@ def commands_only_what_was_granted(run: Transcript) -> str:
         if before := causes or [call for call in asked if call.sent.t <= command.t]:
             when = f"{command.t - before[-1].sent.t:.1f} s after {question(before[-1])}"
         raise Failure(
-            expected="no command to the motors but what was granted",
-            observed=f"motor_power: {shown(command.on)} {when}" + (", which was refused" if causes else ""),
-            help="Publish what data says, at once, when a request is granted; when it is refused, publish nothing.",
+            expected="only accepted requests published on motor_power",
+            observed=f"motor_power: {shown(command.on)} {when}" + (", which was rejected" if causes else ""),
+            help="When you accept a request, publish its data at once; when you reject it, publish nothing.",
             at=command.t,
         )
     return "commands" if run.all(ev.MotorPowerReceived) else "no command"
@@ -216,7 +216,7 @@ def commands_only_what_was_granted(run: Transcript) -> str:
 
 @obligation(2, of=whole_run)
 def lets_it_walk(run: Transcript) -> str | None:
-    """A robot that was told to walk walks on, whatever the node is asked"""
+    """A walking robot walks on, whatever requests the node receives"""
     told = [each for each in run.all(ev.RobotCommanded) if each.command.get("do") != "robot_state"]
     judged = False
     for number, event in enumerate(told):
@@ -225,7 +225,7 @@ def lets_it_walk(run: Transcript) -> str | None:
         end = min([later.t for later in told[number + 1 :]] + [run.end]) - SAMPLE
         seen = [robot for robot in run.ground_truth if event.t <= robot.t <= end]
         began = next((robot.t for robot in seen if robot.mode == RobotMode.WALKING), None)
-        if began is None and end < event.t + STARTS_TO_WALK:
+        if began is None and end < event.t + WALK_START_TIME:
             continue
         idle: ev.RobotTruth | None = seen[-1]
         if began is not None:
@@ -234,9 +234,9 @@ def lets_it_walk(run: Transcript) -> str | None:
         after = f" after {question(asked[-1])}" if asked else ""
         if idle:
             raise Failure(
-                expected=f"the robot walking on as it was told{after}",
-                observed=f"it is {name_of(RobotMode, idle.mode)}, its motors are {on_or_off(idle.motors_enabled)}",
-                help="Publish nothing unasked: motor_power only when a request is granted, and cmd_vel never.",
+                expected=f"the robot to walk on as commanded{after}",
+                observed=f"it is {name_of(RobotMode, idle.mode)}, and its motors are {on_or_off(idle.motors_enabled)}",
+                help="Publish on motor_power only when you accept a request, and never on cmd_vel.",
                 at=idle.t,
             )
         judged = judged or bool(asked)
@@ -248,7 +248,7 @@ def lets_it_walk(run: Transcript) -> str | None:
 
 @obligation(3, 4, of=calls(STATUS), see="02_services#first-file")
 def tells_the_motors(call: Call) -> str | None:
-    """get_status answers success true and the text, letter by letter, by motors_enabled in the last robot_state"""
+    """get_status responds with success true and exactly the text for motors_enabled in the last robot_state"""
     states = last_states(call)
     if not states:
         return None
@@ -256,8 +256,8 @@ def tells_the_motors(call: Call) -> str | None:
     wanted = TEXTS[states[-1].motors_enabled]
     call.require(
         call.response.success and call.response.message in [TEXTS[on] for on in possible],
-        expected=f"success: true, message: {wanted!r}; in the last robot_state the motors are "
-        f"{on_or_off(states[-1].motors_enabled)}, the robot {_situation(call)}",
+        expected=f"success: true, message: {wanted!r}, as in the last robot_state the motors are "
+        f"{on_or_off(states[-1].motors_enabled)} and the robot is {_situation(call)}",
         observed=shown_fields(call.response, "success", "message"),
         help=advice.on_status(call, wanted),
         see=lesson_on_hearing(call.run, "robot_state"),
@@ -267,17 +267,17 @@ def tells_the_motors(call: Call) -> str | None:
 
 @obligation(4, of=calls(STATUS))
 def says_when_it_knows_nothing(call: Call) -> str | None:
-    """Before the first robot_state get_status answers success false, and the message is neither of the two"""
+    """Before the first robot_state get_status responds with success false and neither of the two texts"""
     if last_states(call) != []:
         return None
     response = call.response
     call.require(
         not response.success and response.message.strip(" .").lower() not in map(str.lower, TEXTS.values()),
-        expected="success: false and a message that claims neither ON nor OFF: robot_state has not arrived yet",
+        expected="success: false and a message with neither ON nor OFF, as no robot_state has come yet",
         observed=shown_fields(response, "success", "message"),
-        help="Start with no message (None) and answer success: false as long as none has arrived."
+        help="Initialise the stored message with None, and set success to false while it is None."
         if response.success
-        else "Say in message that nothing is known yet: neither ON nor OFF.",
+        else "Write into message that the status is unknown, neither ON nor OFF.",
     )
     return "before the first robot_state"
 
@@ -299,39 +299,40 @@ status_from_memory = answers_from_memory(STATUS, _knowledge, clause=5)
 
 @obligation(5, of=calls(ENABLE))
 def power_in_time(call: Call) -> str:
-    """Every request for power is answered within 2 s; within 5 s if it waits for what the robot does not confirm"""
+    """Every request for power gets a response within 2 s; within 5 s if the robot does not confirm it"""
     waits = _waits_in_vain(call)
-    limit = UNCONFIRMED if waits else IN_TIME
+    limit = UNCONFIRMED_TIMEOUT if waits else IN_TIME
     call.require(
         call.latency <= limit,
-        expected=f"an answer to {question(call)} within {limit:g} s",
-        observed=f"it took {call.latency:.1f} s",
-        help="Publish and answer: the callback must not sleep while others wait for the same thread."
+        expected=f"a response to {question(call)} within {limit:g} s",
+        observed=f"the response took {call.latency:.1f} s",
+        help="Publish and return the response: do not sleep in the callback, as other callbacks need its thread."
         if not waits
-        else "Nothing confirms it: give the wait for robot_state an end, and say so in the answer.",
+        else "The robot does not confirm this request: give the wait for robot_state a timeout, and report it in the "
+        "response.",
     )
     return one_or_several(call)
 
 
 def _kind(call: Call) -> str | None:
     if _may_grant(call) == {False}:
-        return "refused"
-    return None if _waits_in_vain(call) else "granted"
+        return "rejected"
+    return None if _waits_in_vain(call) else "accepted"
 
 
 @obligation(5, of=whole_run)
 def power_never_sleeps(run: Transcript) -> str | None:
-    """A refusal comes from memory, and so does a grant, unless it waits for the next robot_state"""
+    """The callback never sleeps: it responds from memory, or waits only for the next robot_state"""
     judged = enough_answers(calls(ENABLE)(run), _kind)
     for kind, each in judged.items():
-        limit = FROM_MEMORY_TIME if kind == "refused" else CONFIRMED_TIME
-        expected = f"answers to {ENABLE}, {kind}, without sleeping"
+        limit = FROM_MEMORY_TIME if kind == "rejected" else CONFIRMED_TIME
+        expected = f"the response to a {kind} request to {ENABLE} without a sleep"
         require_fastest(each, limit, expected=expected, help=FROM_MEMORY)
     return ", ".join(sorted(judged)) or None
 
 
 @obligation(6, of=whole_run, see="01_robot_and_graph#names-why")
 def serves_the_robot(run: Transcript) -> str | None:
-    """All names are relative: the robot in the node's namespace is commanded and heard"""
+    """All names are relative: the services work with the robot in the node's namespace"""
     judged = all(each.judge(run) for each in (grants_power_off, tells_the_motors, grants_power_on))
     return "another namespace" if judged else None

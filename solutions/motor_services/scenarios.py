@@ -1,4 +1,4 @@
-"""What is done to the motor services. No expected answers here: this runs in the arena."""
+"""The steps of scenarios for the motor services. No expected responses here: this runs in the arena."""
 
 from __future__ import annotations
 
@@ -10,29 +10,29 @@ from autograder.arena.sequence import Steps, carry_out
 from autograder.arena.stage import Stage
 from humanoid_interfaces.msg import RobotState
 
-KNOWN_TIME = 1.4  # s for a change to be known everywhere; longer than a message may be on its way
-APART = 0.2  # s from an answer to the next step, so that it is plain what the robot was like at the answer
-CONFIRMING = 6.0  # s for an answer, also one that waits for the robot to confirm
+SETTLE_TIME = 1.4  # s for a change to reach every node; longer than the delivery of a message may take
+STEP_PAUSE = 0.2  # s from a response to the next step, so that the robot's state at the response is certain
+RESPONSE_TIMEOUT = 6.0  # s, also for a response that waits for the robot's confirmation
 
 
 def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
-    """Ask for power and for the status, make the robot walk, fall, speak or not, as another node: in any order."""
+    """Call both services, make the robot walk and fall, switch its power and robot_state, in the order of the steps."""
     enable, status = stage.service("enable_motors", SetBool), stage.service("get_status", Trigger)
     robot = stage.robot
     stage.open()
-    stage.wait(KNOWN_TIME)
+    stage.wait(SETTLE_TIME)
 
     def send(service: Any, request: Any, number: int) -> list[Any]:
         return [service.send(request) for _ in range(number)]
 
     def answered(calls: list[Any]) -> bool:
-        came = [call.wait(CONFIRMING) for call in calls]
-        stage.wait(APART)
+        came = [call.wait(RESPONSE_TIMEOUT) for call in calls]
+        stage.wait(STEP_PAUSE)
         return all(came)
 
     def settle() -> None:
         robot.wait_for_commands()
-        stage.wait(KNOWN_TIME)
+        stage.wait(SETTLE_TIME)
 
     def switch_elsewhere(on: bool) -> None:
         robot.set_motor_power(on)
@@ -41,16 +41,16 @@ def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
     def walk(velocity: list[float]) -> None:
         robot.walk(velocity)
         robot.wait_for(lambda state: state.mode == RobotState.WALKING, timeout=5.0)
-        stage.wait(KNOWN_TIME)
+        stage.wait(SETTLE_TIME)
 
     def stop() -> None:
         robot.walk([0.0, 0.0, 0.0])
         robot.wait_for(lambda state: state.mode != RobotState.WALKING)
-        stage.wait(KNOWN_TIME)
+        stage.wait(SETTLE_TIME)
 
     def knock_over(impulse: list[float]) -> None:
         robot.knock_over(impulse)
-        stage.wait(KNOWN_TIME)
+        stage.wait(SETTLE_TIME)
 
     def publish_state(published: bool) -> None:
         robot.publish_robot_state(published)

@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from autograder.authoring.walking.server_checks import in_order
 
 from . import model
 
-LATER = 1.5  # s after a result in which nothing more may be published
-STOPPING = 2.5  # s in which an arm must stop and stay still
+QUIET_TIME = 1.5  # s after a result, in which no more feedback may be published
+STOP_AND_STAY_TIME = 2.5  # s after a cancel or abort, in which an arm must stop and stay still
 TWO, THERE, FURTHER = ["l_elbow", "l_wrist_yaw"], [-0.8, 0.1], [-1.0, 0.2]
 SHORT = ["l_shoulder_pitch", "l_elbow"]
 
 
 def far(name: str, arm: str) -> list[Any]:
-    """Return the step that bends an elbow slowly and far."""
+    """Return the step that sends a goal which bends an elbow slowly and far."""
     return ["go", name, arm, [f"{arm}_elbow", f"{arm}_wrist_pitch"], [[4.0, [-2.1, 0.3]]]]
 
 
@@ -28,7 +28,7 @@ MOVE = in_order(
         [[1.5, [-0.9, -0.2, 0.2]], [2.8, [-1.2, -0.3, 0.4]], [4.1, [-0.9, -0.2, 0.2]]],
     ],
     ["be_over", "move"],
-    ["wait", LATER],
+    ["wait", QUIET_TIME],
 )
 IMPOSSIBLE = in_order(
     ["go", "no arm", "x", TWO, [[1.0, THERE]]],
@@ -51,20 +51,24 @@ IMPOSSIBLE = in_order(
 BLOCK = in_order(
     ["go", "move", "l", ["l_shoulder_pitch", "l_elbow", "l_wrist_pitch"], [[4.0, [0.0, -2.1, 0.2]]]],
     *(["get_going", "l_elbow"], ["hold", "l_elbow"], ["end", "move"], ["wait", 0.5]),
-    *(["release", "l_elbow"], ["wait", STOPPING]),
+    *(["release", "l_elbow"], ["wait", STOP_AND_STAY_TIME]),
 )
 HOLD_SHORT = in_order(
     ["go", "move", "l", SHORT, [[3.0, [0.0, -1.7]]]],
-    *(["hold_short", "move", 0.35, "l_elbow"], ["end", "move"], ["wait", LATER]),
+    *(["hold_short", "move", 0.35, "l_elbow"], ["end", "move"], ["wait", QUIET_TIME]),
 )
 CANCEL = in_order(
-    far("move", "l"), ["get_going", "l_elbow"], ["cancel", "move"], ["end", "move"], ["wait", STOPPING]
+    far("move", "l"),
+    ["get_going", "l_elbow"],
+    ["cancel", "move"],
+    ["end", "move"],
+    ["wait", STOP_AND_STAY_TIME],
 )
 PREEMPT = in_order(
     *(far("old", "l"), ["get_going", "l_elbow"]),
     *(["go", "new", "l", TWO, [[2.5, [-0.2, 0.4]]]], ["end", "old"], ["arrive", "new"]),
 )
-BOTH = in_order(  # the right arm's goal is over first
+BOTH = in_order(  # the right arm's goal ends first
     *(far("left", "l"), ["get_going", "l_elbow"]),
     ["go", "right", "r", ["r_elbow", "r_shoulder_pitch"], [[1.5, [-1.0, 0.0]]]],
     *(["arrive", "right"], ["arrive", "left"]),
@@ -99,7 +103,7 @@ rejects_foreign_joints = of_the_impossible(
 )
 rejects_lists_that_do_not_fit = of_the_impossible(
     [model.rejects_no_point, model.rejects_lengths],
-    title="It rejects a trajectory without a point, and points with too few or too many positions",
+    title="It rejects a trajectory without points, and points with too few or too many positions",
 )
 rejects_times_that_do_not_rise = of_the_impossible(model.rejects_times)
 rejects_nan = of_the_impossible(model.rejects_not_finite)
@@ -108,7 +112,7 @@ of_a_block = partial(check_of, on=BLOCK)
 aborts_when_the_arm_is_blocked = of_a_block(model.strays, points=2, needs=arrives)
 names_the_blocked_joint = of_a_block(
     model.names_the_joint,
-    title="error_msg names the joint that was blocked, and no other",
+    title="error_msg names the blocked joint, and no other",
     needs=aborts_when_the_arm_is_blocked,
 )
 holds_when_the_arm_was_blocked = of_a_block(model.holds_when_given_up, needs=aborts_when_the_arm_is_blocked)
@@ -116,13 +120,13 @@ short_of_the_end = partial(check_of, on=HOLD_SHORT)
 aborts_when_the_end_is_missed = short_of_the_end(model.misses, points=2, needs=arrives)
 names_the_worst_joint = short_of_the_end(
     model.names_the_joint,
-    title="error_msg names the joint that is farthest from its end, and no other",
+    title="error_msg names the joint that is farthest from its last position, and no other",
     needs=aborts_when_the_end_is_missed,
 )
 of_a_cancel = partial(check_of, on=CANCEL)
 cancels = of_a_cancel(
     [model.grants_cancels, model.moves_until_canceled],
-    title="A cancel while the arm moves is agreed to and ends CANCELED",
+    title="A cancel while the arm moves is accepted, and the goal ends CANCELED",
     points=2,
     needs=accepts_a_trajectory,
 )

@@ -1,4 +1,4 @@
-"""What must hold of every goal of move_arm, and of the arms while none is active, clause by clause."""
+"""What must hold for every goal of move_arm, and for the arms without a goal, clause by clause."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .truth import require_accepted
 
 @obligation(1, 15, of=goals, see="09_arms#conventions")
 def accepts(goal: Goal) -> str | None:
-    """It accepts a trajectory of one arm's joints when nothing speaks against it, whatever the arms do."""
+    """It accepts a valid trajectory for one arm's joints, whatever the arms do at that time."""
     if not objections.is_sound(goal):
         return None
     require_accepted(goal)
@@ -58,7 +58,7 @@ gives_way = obligation(15, of=goals)(ends.gives_way)
 stays_without_a_goal = obligation(16, of=whole_run)(motion.stays_without_a_goal)
 
 
-# -- what becomes of a goal in particular situations ------------------------------------------------------------------
+# -- how goals end in particular situations ---------------------------------------------------------------------------
 
 
 def _succeeds_if(*clauses: int, sentence: str, when: Callable[[Goal], bool]) -> Obligation:
@@ -69,7 +69,7 @@ def _succeeds_if(*clauses: int, sentence: str, when: Callable[[Goal], bool]) -> 
     return obligation(*clauses, of=goals)(require)
 
 
-def _joints_were_listed_otherwise(goal: Goal) -> bool:
+def _joints_were_reordered(goal: Goal) -> bool:
     return any(
         each.command.get("reversed") and each.t < goal.sent.t for each in goal.run.all(ev.RobotCommanded)
     )
@@ -82,24 +82,24 @@ def _came_after_a_cancel(goal: Goal) -> bool:
 
 succeeds_by_name = _succeeds_if(
     7,
-    sentence="It measures by the joints' names, in whatever order joint_states lists them",
-    when=_joints_were_listed_otherwise,
+    sentence="It looks up joints by name, whatever their order in joint_states",
+    when=_joints_were_reordered,
 )
 succeeds_by_its_tolerance = _succeeds_if(
     7,
-    sentence="A joint within goal_tolerance of its end is near enough",
+    sentence="The goal SUCCEEDS when a blocked joint is within goal_tolerance of its last position",
     when=lambda goal: bool(goal.request.goal_tolerance) and hold_of(goal) is not None,
 )
 succeeds_late = _succeeds_if(
     7,
-    sentence="A joint that gets to its end within 1 s of its time is in time",
+    sentence="The goal SUCCEEDS when a joint arrives late, but within 1 s after the last point is due",
     when=lambda goal: not goal.request.goal_tolerance and hold_of(goal) is not None,
 )
 succeeds_after_a_cancel = _succeeds_if(
-    7, sentence="A new goal after a cancel is carried out", when=_came_after_a_cancel
+    7, sentence="After a cancel, a new goal is carried out", when=_came_after_a_cancel
 )
 succeeds_beside_the_other = _succeeds_if(
     16,
-    sentence="What happens to one arm's goal leaves the other arm alone",
+    sentence="The goal of one arm does not affect the other arm",
     when=lambda goal: bool(neighbours(goal)),
 )

@@ -1,4 +1,4 @@
-"""What speaks against a goal that moves an arm: what its request holds."""
+"""Reasons to reject a goal of move_arm because of its request."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from autograder.authoring.walking.objections import objection
 from autograder.authoring.walking.obligations.tells import seconds
 
 ARMS = ("l", "r")
-AT_THE_END = 0.001  # rad; what is so near the end of a range may be rounded
+ROUNDING = 0.001  # rad; a position this near to the end of a range may be accepted or rejected
 _LEFT = {  # degrees
     "shoulder_pitch": (-170, 70),
     "shoulder_roll": (-20, 120),
@@ -21,7 +21,7 @@ _LEFT = {  # degrees
     "wrist_roll": (-60, 60),
 }
 _RIGHT = {**_LEFT, "shoulder_roll": (-120, 20)}
-# How far the arms' joints can turn (rad), as the robot publishes it on joint_limits.
+# The ranges of the arms' joints (rad), which the robot publishes on joint_limits.
 RANGES = {
     f"{side}_{joint}": (math.radians(lower), math.radians(upper))
     for side, ranges in (("l", _LEFT), ("r", _RIGHT))
@@ -29,30 +29,30 @@ RANGES = {
 }
 
 
-@objection("Look at goal_request.arm in goal_callback.")
+@objection("Compare goal_request.arm with 'l' and 'r' in goal_callback.")
 def arms(goal: Goal) -> str:
     """It rejects an arm that is neither l nor r."""
     arm = goal.request.arm
-    return "" if arm in ARMS else f"the robot has the arms l and r, and no {arm}"
+    return "" if arm in ARMS else f"the robot has the arms 'l' and 'r', but no arm {arm!r}"
 
 
 @objection(
-    "An arm has the joints in joint_limits.names that begin with its letter, l_ or r_. A leg's joint begins so, too, "
-    "but is not in that list."
+    "An arm's joints are those in joint_limits.names that begin with l_ or r_. The names of leg joints begin like "
+    "this, too, but are not in that list."
 )
 def joints(goal: Goal) -> str:
-    """It rejects joints that are not this arm's."""
+    """It rejects joints that do not belong to the goal's arm."""
     arm = goal.request.arm
     for joint in goal.request.trajectory.joint_names if arm in ARMS else ():
         if joint not in RANGES or not joint.startswith(f"{arm}_"):
-            return f"{joint} is not a joint of the arm {arm}"
+            return f"{joint} is not a joint of the arm {arm!r}"
     return ""
 
 
-@objection("An empty list is false: `if not trajectory.points`.")
+@objection("Return GoalResponse.REJECT `if not goal_request.trajectory.points`: an empty list is false.")
 def no_point(goal: Goal) -> str:
-    """It rejects a trajectory without a point."""
-    return "" if goal.request.trajectory.points else "there is nowhere to go"
+    """It rejects a trajectory without points."""
+    return "" if goal.request.trajectory.points else "the trajectory has no points"
 
 
 @objection("Compare len(point.positions) with len(trajectory.joint_names), for every point.")
@@ -65,24 +65,22 @@ def lengths(goal: Goal) -> str:
     return ""
 
 
-@objection(
-    "time_from_start.sec + time_from_start.nanosec * 1e-9 must be greater than that of the point before."
-)
+@objection("time_from_start.sec + time_from_start.nanosec * 1e-9 must be greater than in the previous point.")
 def times(goal: Goal) -> str:
-    """It rejects a trajectory whose times do not rise from point to point."""
+    """It rejects a trajectory whose times do not increase from point to point."""
     times = (seconds(point.time_from_start) for point in goal.request.trajectory.points)
     for number, (earlier, later) in enumerate(pairwise(times), start=1):
         if later <= earlier:
-            return f"point {number} is not later than the point before"
+            return f"point {number} is not later than the previous point"
     return ""
 
 
 @objection(
-    "Test every position of every point with math.isfinite(): every `<` and `>` with NaN is false, so it is neither "
-    "below nor above a limit."
+    "Test every position of every point with math.isfinite(). A comparison with the limits does not find NaN, as "
+    "every `<` and `>` with NaN is false."
 )
 def not_finite(goal: Goal) -> str:
-    """It rejects a trajectory that holds NaN or an infinite position."""
+    """It rejects a trajectory with a NaN or infinite position."""
     for point in goal.request.trajectory.points:
         for position in point.positions:
             if not math.isfinite(position):
@@ -96,22 +94,22 @@ def _beyond(goal: Goal, slack: float) -> str:
         for joint, position in zip(goal.request.trajectory.joint_names, point.positions, strict=False):
             lower, upper = RANGES.get(joint, (-math.inf, math.inf))
             if math.isfinite(position) and not lower - slack <= position <= upper + slack:
-                return f"{joint} cannot get to {position:.2f} rad (point {number})"
+                return f"{joint} cannot reach {position:.2f} rad (point {number})"
     return ""
 
 
 @objection(
-    "Look at every position of every point, and compare it with lower and upper of this very joint in joint_limits: "
-    "the right arm's ranges mirror the left one's."
+    "Compare every position of every point with lower and upper of the same joint in joint_limits: the ranges of the "
+    "right arm mirror those of the left."
 )
 def beyond(goal: Goal) -> str | None:
     """It rejects a position outside the joint's range."""
-    surely, perhaps = _beyond(goal, AT_THE_END), _beyond(goal, -AT_THE_END)
+    surely, perhaps = _beyond(goal, ROUNDING), _beyond(goal, -ROUNDING)
     return surely if bool(surely) == bool(perhaps) else None
 
 
 def _is_left_open(goal: Goal) -> bool:
-    """Return whether it has no joint, a joint twice, a first time of 0, or a tolerance that is none."""
+    """Return whether it has no joint, a joint twice, a first time of 0, or an invalid tolerance."""
     names, points = list(goal.request.trajectory.joint_names), goal.request.trajectory.points
     is_early = bool(points) and seconds(points[0].time_from_start) <= 0.0
     tolerance = goal.request.goal_tolerance
@@ -125,5 +123,5 @@ AGAINST = (
 
 
 def is_sound(goal: Goal) -> bool:
-    """Return whether nothing speaks against a goal, and the statement says what it asks for."""
+    """Return whether there is no reason to reject a goal, and the statement defines how it is carried out."""
     return all(each.because(goal) == "" for each in AGAINST) and not _is_left_open(goal)

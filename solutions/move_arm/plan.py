@@ -1,4 +1,4 @@
-"""Where a goal's trajectory has the joints at a time, as the robot follows it: straight between the points."""
+"""The planned positions of the joints over time: the robot interpolates linearly between a trajectory's points."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from autograder.authoring.walking.obligations.tells import seconds
 
 @dataclass(frozen=True)
 class Plan:
-    """A trajectory from where the joints were when it began.
+    """A trajectory that starts at the joints' positions when the goal was accepted.
 
     Attributes:
-        joints: their names.
-        begin: s, when it began.
-        times: s after that, of each point, the start at 0 included.
-        places: rad, of each point, one for each joint; the start included.
+        joints: the names of the joints.
+        begin: when it began, s.
+        times: of each point, s after `begin`; the first is the start, at 0.
+        places: the joints' positions at each point, rad; the first is the start.
     """
 
     joints: tuple[str, ...]
@@ -53,7 +53,7 @@ class Plan:
         return min(max(bisect_right(self.times, t - self.begin) - 1, 0), len(self.times) - 2)
 
     def final(self) -> dict[str, float]:
-        """Return where the joints shall end (rad)."""
+        """Return the positions of the joints at the last point (rad)."""
         return dict(zip(self.joints, self.places[-1], strict=True))
 
 
@@ -64,5 +64,5 @@ def largest(errors: Mapping[str, float]) -> tuple[str, float]:
 
 
 def errors(places: Mapping[str, float], wanted: Mapping[str, float]) -> dict[str, float]:
-    """Return how far (rad) each wanted joint is from its place."""
+    """Return the distance (rad) of each joint in `wanted` from its wanted position."""
     return {joint: abs(places[joint] - place) for joint, place in wanted.items()}

@@ -1,4 +1,4 @@
-"""What is done to a server that moves arms. No expected answers here: this runs in the arena."""
+"""The steps of scenarios for a move_arm server. No expected responses here: this runs in the arena."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from autograder.arena.stage import Goal, Stage
 from humanoid_interfaces.action import MoveArm
 
 ROBOT_TOPICS_TIME = 1.0  # s for joint_states and joint_limits to arrive
-END_TIMEOUT = 8.0  # s for the end of a goal that was cancelled, blocked or replaced
-UNDER_WAY = 0.3  # rad that a joint has turned by when something happens to it
+END_TIMEOUT = 8.0  # s for the result of a goal that was cancelled, blocked or preempted
+UNDER_WAY = 0.3  # rad; a joint that has turned by this is under way
 MOTION_TIMEOUT = 5.0  # s for a joint to get under way
 JOINTS = [
     f"{side}_{joint}"
@@ -31,12 +31,12 @@ Points = Sequence[tuple[float, Sequence[float]]]  # s, rad
 
 
 def in_order(stage: Stage, steps: Steps, watched: bool = True) -> None:
-    """Send goals, ask to cancel, hold joints, wait: in the order of the steps.
+    """Send goals, cancel, block joints and wait, in the order of the steps.
 
     Args:
         stage: the arena.
-        steps: each a verb of `_Arms` with its arguments.
-        watched: whether to record what the arms do, and what is asked of them.
+        steps: each a verb from `_Arms.vocabulary` with its arguments.
+        watched: whether to record the joints' motion and the trajectories that the server publishes.
     """
     arms = _Arms(stage)
     if watched:
@@ -50,7 +50,7 @@ def in_order(stage: Stage, steps: Steps, watched: bool = True) -> None:
 
 
 class _Arms:
-    """Sends goals, by name, and does things to them and to the robot."""
+    """Sends named goals, cancels them, and blocks joints of the robot."""
 
     def __init__(self, stage: Stage) -> None:
         self._stage = stage
@@ -82,16 +82,16 @@ class _Arms:
     def go(
         self, name: str, arm: str, joints: Sequence[str], points: Points, goal_tolerance: float = 0.0
     ) -> None:
-        """Send a goal and wait for its answer."""
+        """Send a goal and wait until it is accepted or rejected."""
         self._send(name, arm, joints, points, goal_tolerance).wait_for_answer()
 
     def go_together(self, *goals: Sequence[Any]) -> None:
-        """Send several goals, each with the arguments of `go`, in the same moment."""
+        """Send several goals at once, each with the arguments of `go`."""
         for goal in [self._send(*each) for each in goals]:
             goal.wait_for_answer()
 
     def be_over(self, name: str) -> None:
-        """Wait for the end of a goal, and until its last point is due if it ended early."""
+        """Wait for the result of a goal, and at least until its last point is due."""
         self._goals[name].wait_for_result()
         self._stage.wait(max(0.0, self._due(name) - time.monotonic()))
 
@@ -115,7 +115,7 @@ class _Arms:
     # -- the robot ----------------------------------------------------------------------------------------------------
 
     def get_going(self, joint: str) -> None:
-        """Wait until a joint has turned on its way."""
+        """Wait until a joint has turned by `UNDER_WAY`."""
         seen: list[float] = []
 
         def has_turned(angle: float) -> bool:
@@ -125,30 +125,30 @@ class _Arms:
         self._stage.robot.wait_for_joint(joint, has_turned, MOTION_TIMEOUT)
 
     def hold(self, *joints: str) -> None:
-        """Hold joints where they are."""
+        """Block joints at their present positions."""
         for joint in joints:
             self._stage.robot.hold_joint(joint)
 
     def hold_short(self, name: str, by: float, *joints: str) -> None:
-        """Hold joints when the last of them is `by` rad before the end of a goal."""
+        """Block joints when the last of them is within `by` rad of its last position in a goal."""
         trajectory = self._trajectories[name]
         end = trajectory.points[-1].positions[trajectory.joint_names.index(joints[-1])]
         self._stage.robot.wait_for_joint(joints[-1], lambda angle: abs(angle - end) < by, MOTION_TIMEOUT)
         self.hold(*joints)
 
     def release(self, *joints: str) -> None:
-        """Let go of joints."""
+        """Release blocked joints."""
         for joint in joints:
             self._stage.robot.release_joint(joint)
         self._stage.robot.wait_for_commands()
 
     def release_late(self, name: str, late: float, *joints: str) -> None:
-        """Let go of joints `late` s after the last point of a goal was due."""
+        """Release blocked joints `late` s after the last point of a goal was due."""
         self._stage.wait(max(0.0, self._due(name) + late - time.monotonic()))
         self.release(*joints)
 
     def reverse_joint_states(self) -> None:
-        """Let joint_states list the joints in another order."""
+        """Make joint_states list the joints in reversed order."""
         self._stage.robot.reverse_joint_states()
         self._stage.robot.wait_for_commands()
         self._stage.wait(ROBOT_TOPICS_TIME)

@@ -1,4 +1,4 @@
-"""Where the arms' joints were, as the simulator has it; the scenario has asked for it with `report_joints`."""
+"""Where the arms' joints were, from the simulator's reports that the scenario requested with `report_joints`."""
 
 from __future__ import annotations
 
@@ -9,35 +9,34 @@ from autograder.authoring import Goal, RobotRecord, ev, why_nothing_is_heard
 from .plan import Plan, errors, largest
 
 _ACCEPT = (
-    "goal_callback must return GoalResponse.ACCEPT for a trajectory in which nothing is wrong (True is not "
-    "GoalResponse.ACCEPT). Does it know the ranges? joint_limits is published once, so subscribe with "
-    "DurabilityPolicy.TRANSIENT_LOCAL."
+    "goal_callback must return GoalResponse.ACCEPT for a valid trajectory (True is not GoalResponse.ACCEPT). To "
+    "receive the ranges, subscribe to joint_limits with DurabilityPolicy.TRANSIENT_LOCAL: it is published only once."
 )
 
 
 def require_accepted(goal: Goal) -> Goal:
     """Require that the server accepted the goal."""
-    deaf = (why_nothing_is_heard(goal.run, topic) for topic in ("joint_limits", "joint_states"))
-    return goal.require_accepted(next(filter(None, deaf), _ACCEPT))
+    causes = (why_nothing_is_heard(goal.run, topic) for topic in ("joint_limits", "joint_states"))
+    return goal.require_accepted(next(filter(None, causes), _ACCEPT))
 
 
 def plan_of(goal: Goal) -> Plan:
-    """Return the plan of an accepted goal, from where the joints really were when it was accepted."""
+    """Return the plan of an accepted goal, from the joints' true positions when it was accepted."""
     begin = require_accepted(goal).accepted_at
     return Plan.of(goal.request.trajectory, joints_at(goal.run, begin).positions, begin)
 
 
 def joints_at(run: RobotRecord, t: float) -> ev.JointsTruth:
-    """Return the joints at a time (s): the last report not later, or the first there is."""
+    """Return the joints at a time (s): the last report up to then, or the first of all."""
     return run.reported(ev.JointsTruth, t, t, of="the joints")[-1]
 
 
 def worst_at(goal: Goal, t: float, wanted: Mapping[str, float]) -> tuple[str, float]:
-    """Return the joint that was farthest from where it was wanted (rad) at a time (s), and how far."""
+    """Return the joint that was farthest (rad) from its wanted position at a time (s), and its distance."""
     return largest(errors(joints_at(goal.run, t).positions, wanted))
 
 
 def joints_between(run: RobotRecord, start: float, end: float) -> Sequence[ev.JointsTruth]:
-    """Return the reports from `start` to `end` (s); there must be some from end to end."""
-    joints_at(run, start)  # so that a gap there is named by its own time
+    """Return the reports from `start` to `end` (s); they must cover the whole time."""
+    joints_at(run, start)  # so that the error for a gap there names the time `start`
     return run.reported(ev.JointsTruth, start, end, of="the joints")

@@ -1,1 +1,1 @@
-"""Chapter 8: an action server that brings the robot to a pose some metres away and tells how it goes."""
+"""Chapter 8: an action server that walks the robot to a pose some metres away and publishes its progress."""

@@ -1,4 +1,4 @@
-"""The way to a goal of navigate_to_pose, with or without an operator who takes the robot over."""
+"""The robot's way to a goal of navigate_to_pose, with or without a detour commanded by an operator."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from autograder.authoring.walking import life
 from autograder.authoring.walking.planar import error, target
 from ros_runtime.angles import wrap
 
-ON_THE_WAY = 0.3  # m left, at least, where the robot is under way
-MIN_LEG = 1.0  # m; a shorter leg has no middle in which the robot only walks
-OFF_ITS_WAY = 0.6  # rad between heading and goal: more than the task's 0.5, so that nobody may overlook it
+UNDER_WAY_DISTANCE = 0.3  # m; a robot that is farther from its goal is under way
+MIN_LEG = 1.0  # m; on a shorter leg the robot has no time in which it only walks
+DETOUR_ANGLE = 0.6  # rad between heading and goal, more than the task's 0.5
 
 
 @dataclass(frozen=True)
 class Leg:
-    """A long way that nothing disturbed, with the moment when half of its distance was left."""
+    """A long undisturbed way to a goal, with the time at which half of its distance was left."""
 
     goal: Goal
     start: float  # s
@@ -27,7 +27,7 @@ class Leg:
 
 
 def legs(run: Transcript) -> Iterator[Leg]:
-    """Occasions: the long ways that nothing disturbed, whose goals must have succeeded."""
+    """Occasions: the long undisturbed ways; their goals must have succeeded."""
     for goal in goals(run):
         if not life.is_undisturbed(goal) or life.left_alone(goal) or operated(goal):
             continue
@@ -47,7 +47,7 @@ def _leg_to(goal: Goal) -> Leg:
 
 
 def operated(goal: Goal, *how: str) -> bool:
-    """Return whether the scenario takes the robot over on its way: leads it astray or holds it, or one of these."""
+    """Return whether the scenario controls the robot during the goal: by the verbs `how`, by default any of them."""
     newest = None
     for verb, *arguments in life.run_of(goal).params[STEPS]:
         if verb in (how or ("lead_astray", "hold")) and newest == goal.name:
@@ -57,14 +57,16 @@ def operated(goal: Goal, *how: str) -> bool:
 
 
 def led_astray(goal: Goal) -> tuple[float, float] | None:
-    """Return when (s) the robot was taken over and given back; it must then have been off its way by over 0.5 rad."""
+    """Return when (s) an operator's detour began and ended; the robot must then be turned away from its goal."""
     if not life.accepted(goal) or life.interrupted(goal) or not operated(goal, "lead_astray"):
         return None
     run = goal.run
     taken, given = run.told("take_over", velocity=[-0.2, 0.0, 0.0]), run.told("take_over", velocity=None)
     off = off_the_way(run.robot_at(given.t), goal)
-    if off < OFF_ITS_WAY:
-        raise not_shown(run, f"the robot, {off:.1f} rad off its way when it was given back, finds back")
+    if off < DETOUR_ANGLE:
+        raise not_shown(
+            run, f"the robot returns from a detour: it faced {off:.1f} rad off its way at the end"
+        )
     return taken.t, given.t
 
 
@@ -74,20 +76,22 @@ def off_the_way(robot: ev.RobotTruth, goal: Goal) -> float:
     return abs(wrap(robot.yaw - math.atan2(place.y - robot.y, place.x - robot.x)))
 
 
-def told(goal: Goal) -> Sequence[ev.FeedbackReceived]:
-    """Return the feedback until the result; what comes later is judged by itself."""
+def feedback_of(goal: Goal) -> Sequence[ev.FeedbackReceived]:
+    """Return the feedback until the result; another check is about later feedback."""
     return [feedback for feedback in goal.feedback if goal.result is None or feedback.t <= goal.result.t]
 
 
 def under_way(goal: Goal) -> Sequence[ev.FeedbackReceived]:
-    """Return the feedback that came while more than 0.3 m were left, of which there must be some."""
-    far = [each for each in told(goal) if error(goal.run.robot_at(each.t), goal)[0] > ON_THE_WAY]
+    """Return the feedback that came while more than 0.3 m were left; there must be some."""
+    far = [
+        each for each in feedback_of(goal) if error(goal.run.robot_at(each.t), goal)[0] > UNDER_WAY_DISTANCE
+    ]
     if not far:
         raise not_shown(goal.run, f"feedback comes while the robot is on its way to “{goal.name}”")
     return far
 
 
-def told_half_way(leg: Leg) -> ev.FeedbackReceived:
+def feedback_half_way(leg: Leg) -> ev.FeedbackReceived:
     """Return the last feedback before half of the distance was left, or the first."""
     require_feedback(leg.goal)
     feedback = leg.goal.feedback

@@ -1,4 +1,4 @@
-"""What must hold of every goal of navigate_to_pose, and of the robot while none is active, clause by clause."""
+"""What must hold for every goal of navigate_to_pose, and for the robot without a goal, clause by clause."""
 
 from __future__ import annotations
 
@@ -16,49 +16,50 @@ from autograder.authoring.walking.reports import require_error_code
 from autograder.authoring.walking.truth import require_arrival, require_stopped
 from ros_runtime.message_constants import GoalStatus, name_of
 
-from .legs import Leg, led_astray, legs, off_the_way, operated, told, told_half_way, under_way
+from .legs import Leg, feedback_half_way, feedback_of, led_astray, legs, off_the_way, operated, under_way
 
-SMALLEST = 0.05  # m, of a tolerance
-HERE = 0.05  # m or rad that the present pose may be off
-HERE_TIME = 4.0  # s
-STAYED = 0.10  # m the pelvis may move while the robot only stands
-# s a TIMEOUT may come too early, and too late: the robot has to stand first
-TIMEOUT_EARLY, TIMEOUT_LATE = 1.5, 4.0
+MIN_TOLERANCE = 0.05  # m
+HERE = 0.05  # m or rad; a goal this near equals the present pose
+HERE_TIMEOUT = 4.0  # s
+MAX_SWAY = 0.10  # m, by which the pelvis may move while the robot stands
+TIMEOUT_EARLY, TIMEOUT_LATE = (
+    1.5,
+    4.0,
+)  # s, by which a TIMEOUT may come early or late: the robot has to stop first
 FACING = 0.6  # rad between heading and goal while it walks
-IN_PLACE = 0.10  # m/s of the body as a whole
-# of the greatest speed, and turn rate in place, that the robot had on this leg
-WALKS, STANDS, TURNS = 0.7, 0.4, 0.5
-TIME_SLACK = 1.0  # s that a reported time may be off: feedback's period and delivery
-FACTOR = 2.0  # by which an estimate may be off
+IN_PLACE_SPEED = 0.10  # m/s of the whole body
+# As shares of the greatest speed, and of the greatest turn rate in place, on a leg.
+WALK_SHARE, STAND_SHARE, TURN_SHARE = 0.7, 0.4, 0.5
+TIME_SLACK = 1.0  # s, by which a time in the feedback may be wrong because of its period and delivery
+ESTIMATE_FACTOR = 2.0  # by which an estimate may be wrong
 HALF_WAY = 25.0, 75.0  # percent
 COMPLETE = 99.5  # percent
-# m where the robot turns back, or goes on: half a leg before it and half a leg after it go uncounted
-LOST = 0.2
-SHARE, LEAST = 0.15, 0.25  # of the path, or m (more than a step), that distance_traveled may be off
-MOST_DETOURS = 3  # one is right; who counts the turn back and the walk back as two is right, too
+LOST_AT_A_TURN = 0.2  # m; where the robot turns back, up to half a leg before and after it may not be counted
+PATH_SHARE, MIN_PATH_SLACK = 0.15, 0.25  # by which distance_traveled may be wrong: share of the path; m
+MAX_DETOURS = 3  # for one detour; a server may count the turn and the walk back separately
 _NUMBER = re.compile(r"[-+]?\d+([.,]\d+)?")
 _COUNTS_SWAY = (
-    "The pelvis sways 3 cm to each side with every step, also while the robot turns on the spot. Count a leg only when "
-    "odom is 0.15 m away from where the last one ended."
+    "The pelvis sways 3 cm to each side with every step, also while the robot turns in place. Add a distance only when "
+    "odom is at least 0.15 m away from the last position that you added."
 )
-_ODOM_TELLS = "Count legs of the way in odom: the robot may not obey what you publish on cmd_vel."
-_OF_EACH_GOAL = "Begin the sum at 0 in every goal: keep it in execute, not in the node."
+_MEASURE_IN_ODOM = "Add up distances in odom: the robot may not follow what you publish on cmd_vel."
+_OF_EACH_GOAL = "Start the sum at 0 for every goal: keep it in execute, not in the node."
 
 
 # -- which goals it accepts -------------------------------------------------------------------------------------------
 
 
 @objection(
-    "0 asks for the default of 0.10 m; anything else below 0.05 m is rejected, negative numbers and NaN too: "
-    "NaN < 0.05 is false, so ask math.isfinite() as well."
+    "0 means the default of 0.10 m. Reject every other tolerance below 0.05 m, also negative numbers and NaN: as "
+    "NaN < 0.05 is false, use math.isfinite() as well."
 )
 def _tolerances(goal: Goal) -> str | None:
-    """It rejects a tolerance that is NaN, or below 0.05 m and not 0."""
+    """It rejects a tolerance that is NaN, or below 0.05 m but not 0."""
     tolerance = goal.request.tolerance
-    if abs(tolerance - SMALLEST) < 1e-6:
-        return None  # as a float it may be a little less
-    can_be_kept = tolerance == 0.0 or tolerance >= SMALLEST
-    return "" if can_be_kept else f"a tolerance of {tolerance:g} m cannot be kept"
+    if abs(tolerance - MIN_TOLERANCE) < 1e-6:
+        return None  # rounded to a float32, 0.05 may be a little smaller
+    is_valid = tolerance == 0.0 or tolerance >= MIN_TOLERANCE
+    return "" if is_valid else f"a tolerance of {tolerance:g} m is not allowed"
 
 
 accepts = obligation(1, 2, 18, of=goals, see="06_walk_to_a_pose#reject-task")(
@@ -99,26 +100,26 @@ def succeeds_where_it_stands(goal: Goal) -> str | None:
     end = goal.require_result(SUCCEEDED)
     took = end.t - goal.accepted_at
     expect(
-        took <= HERE_TIME,
-        expected=f"success within {HERE_TIME:.0f} s: the robot is there already",
-        observed=f"it came after {took:.1f} s",
-        help="Look whether the robot is there before you look where to turn: at distance 0 the bearing means nothing.",
+        took <= HERE_TIMEOUT,
+        expected=f"SUCCEEDED within {HERE_TIMEOUT:.0f} s, as the robot is already there",
+        observed=f"SUCCEEDED after {took:.1f} s",
+        help="Check whether the robot has arrived before you compute the bearing: at distance 0 it is meaningless.",
         at=end.t,
     )
     steps = goal.run.robot_at(end.t).steps - goal.run.robot_at(goal.sent.t).steps
     expect(
         steps == 0,
-        expected="success without a step: the robot is there already",
+        expected="SUCCEEDED without a step, as the robot is already there",
         observed=f"{steps} steps",
-        help="Publish no velocity but zero when distance and turn are within the tolerance from the beginning.",
+        help="Publish only zero velocity if distance and turn are within the tolerance from the start.",
         at=end.t,
     )
     distance = float(end.result.distance_traveled)
     expect(
-        0.0 <= distance <= STAYED,
-        expected="distance_traveled 0 m: the robot did not walk",
+        0.0 <= distance <= MAX_SWAY,
+        expected="distance_traveled 0 m, as the robot did not walk",
         observed=f"{distance:.2f} m",
-        help="Begin the path of each goal at 0, where the robot is when it is accepted.",
+        help="Start distance_traveled at 0 for each goal, at the robot's position when the goal is accepted.",
         at=end.t,
     )
     return life.phase(goal)
@@ -126,7 +127,7 @@ def succeeds_where_it_stands(goal: Goal) -> str | None:
 
 @obligation(16, of=goals, see="08_navigation#late-why")
 def gives_up_in_time(goal: Goal) -> str | None:
-    """A goal that is not reached 30 s and 15 s per metre after its acceptance ends ABORTED with TIMEOUT, not before"""
+    """A goal that is not reached within 30 s plus 15 s per metre is ABORTED with TIMEOUT then, not earlier"""
     if not life.accepted(goal) or life.interrupted(goal):
         return None
     start, result = goal.accepted_at, goal.result
@@ -138,14 +139,14 @@ def gives_up_in_time(goal: Goal) -> str | None:
         return None
     end = goal.require_result(
         ABORTED,
-        help="Compare the time since acceptance with the limit in every round, also while the robot does not get on.",
+        help="Compare the time since acceptance with the limit in every round, also while the robot does not move.",
     )
-    require_error_code(goal, "TIMEOUT", because="the time is over")
+    require_error_code(goal, "TIMEOUT", because="the time limit was reached")
     expect(
         limit - TIMEOUT_EARLY <= lasted <= limit + TIMEOUT_LATE,
-        expected=f"TIMEOUT {limit:.0f} s after acceptance, 30 s and 15 s per metre that was to go then",
-        observed=f"it came after {lasted:.1f} s",
-        help="Compute the limit once, from the distance at acceptance, and count from acceptance.",
+        expected=f"TIMEOUT {limit:.0f} s after acceptance: 30 s plus 15 s per metre of the distance at acceptance",
+        observed=f"TIMEOUT after {lasted:.1f} s",
+        help="Compute the limit once, from the distance at acceptance, and count the time from acceptance.",
         at=end.t,
     )
     return "held" if operated(goal, "hold") else "under way"
@@ -153,11 +154,11 @@ def gives_up_in_time(goal: Goal) -> str | None:
 
 @obligation(16, of=goals, see="06_walk_to_a_pose#touch-why")
 def stands_after_the_limit(goal: Goal) -> str | None:
-    """After TIMEOUT the robot stands still, also when it is let go"""
+    """After TIMEOUT the robot stands still, also when it is no longer held"""
     if not _timed_out(goal) or not operated(goal, "hold"):
         return None
-    require_stopped(goal.run, goal.run.told("take_over", velocity=None).t, event="being let go")
-    return "let go"
+    require_stopped(goal.run, goal.run.told("take_over", velocity=None).t, event="its release")
+    return "released"
 
 
 def _timed_out(goal: Goal) -> bool:
@@ -165,7 +166,7 @@ def _timed_out(goal: Goal) -> bool:
     return bool(result and result.status == ABORTED and result.result.error_code == result.result.TIMEOUT)
 
 
-# -- how it goes, and what the feedback says of it --------------------------------------------------------------------
+# -- the way, and the feedback during it ------------------------------------------------------------------------------
 
 feedback_at_5_hz = obligation(6, of=goals, see="06_walk_to_a_pose#settle-intro")(tells.feedback_at_5_hz)
 feedback_ends_with_the_goal = obligation(6, of=goals, see="07_cancel_and_preempt#m13-why")(
@@ -176,18 +177,18 @@ feedback_is_true = obligation(7, of=goals, see="08_navigation#action-intro")(tel
 
 @obligation(3, of=legs, see="08_navigation#why")
 def faces_its_way(leg: Leg) -> str:
-    """It turns toward the goal, then walks straight ahead: it faces the goal in the middle of its way"""
+    """It turns toward the goal, then walks straight ahead: half way it faces the goal"""
     run = leg.goal.run
     for robot in run.robot_between(leg.half - 1.0, leg.half + 0.5):
-        if walking_speed(run, robot.t) < IN_PLACE:
+        if walking_speed(run, robot.t) < IN_PLACE_SPEED:
             continue
         off = off_the_way(robot, leg.goal)
         expect(
             off <= FACING,
-            expected="the robot to turn toward the goal first, and to walk straight ahead",
-            observed=f"it walks with its heading {off:.1f} rad off the goal",
-            help="While the goal is farther than 0.3 m, publish angular.z alone until math.atan2(dy, dx) minus the "
-            "heading is small; only then linear.x.",
+            expected="the robot to turn toward the goal first, then to walk straight ahead",
+            observed=f"it walked with its heading {off:.1f} rad off the goal",
+            help="While the goal is farther than 0.3 m, publish only angular.z until math.atan2(dy, dx) minus the "
+            "heading is small; only then publish linear.x.",
             at=robot.t,
         )
     return life.phase(leg.goal)
@@ -195,49 +196,51 @@ def faces_its_way(leg: Leg) -> str:
 
 @obligation(8, of=legs, see="08_navigation#loops-intro")
 def names_its_phases(leg: Leg) -> str:
-    """The walk has a status of its own, and the turns before and after it have others"""
+    """feedback.status differs between the walk and the turns before and after it"""
     goal = leg.goal
     moves = [
         (robot, walking_speed(goal.run, robot.t))
         for robot in goal.run.robot_between(leg.start, leg.end)[::10]
     ]
     fastest = max(speed for _, speed in moves)
-    in_place = min(IN_PLACE, STANDS * fastest)
-    turn_rate = TURNS * max((abs(robot.turn_rate) for robot, speed in moves if speed < in_place), default=0.0)
+    in_place = min(IN_PLACE_SPEED, STAND_SHARE * fastest)
+    turn_rate = TURN_SHARE * max(
+        (abs(robot.turn_rate) for robot, speed in moves if speed < in_place), default=0.0
+    )
 
     def turns(robot: ev.RobotTruth, speed: float) -> bool:
         return speed < in_place and abs(robot.turn_rate) > turn_rate
 
     turning = _statuses(goal, leg.start, leg.half, turns)
-    walking = _statuses(goal, leg.start, leg.end, lambda robot, speed: speed > WALKS * fastest)
+    walking = _statuses(goal, leg.start, leg.end, lambda robot, speed: speed > WALK_SHARE * fastest)
     aligning = _statuses(goal, leg.half, leg.end, turns)
     for what, statuses in (
-        ("it turns toward the goal", turning),
-        ("it walks", walking),
-        ("it turns to the goal's heading", aligning),
+        ("the robot turns toward the goal", turning),
+        ("the robot walks", walking),
+        ("the robot turns to the goal's heading", aligning),
     ):
         if not statuses:
             raise not_shown(goal.run, f"feedback comes while {what}")
         expect(
             all(status.strip() for status in statuses),
-            expected=f"feedback.status to say in words that {what}",
+            expected=f"feedback.status in words while {what}",
             observed="an empty status",
-            help="Keep the phase in a variable, change it where the loop changes what it does, and copy it to "
+            help="Keep the phase in a variable, change it when the robot's motion changes, and copy it to "
             "feedback.status.",
         )
     names = [statuses.most_common(1)[0][0] for statuses in (turning, walking, aligning)]
     expect(
         names[1] not in (names[0], names[2]),
-        expected="a status of its own for the walk, and others for the turns before and after it",
-        observed=f"{names[0]!r} as it turns, {names[1]!r} as it walks, {names[2]!r} as it turns to the heading",
-        help="Set the phase where the loop decides to turn, to walk or to align, and send that.",
+        expected="a feedback.status during the walk that differs from those during the turns before and after it",
+        observed=f"{names[0]!r} during the first turn, {names[1]!r} during the walk, {names[2]!r} during the last turn",
+        help="Set the phase when the loop starts to turn, to walk or to align, and publish it in feedback.status.",
         at=leg.half,
     )
     return life.phase(goal)
 
 
 def _statuses(goal: Goal, start: float, end: float, during) -> Counter[str]:
-    """Count the statuses of the feedback, without the numbers in them, while the robot did something."""
+    """Count the values of feedback.status, without numbers, at times when `during` holds for robot and speed."""
     run = goal.run
     return Counter(
         _NUMBER.sub("", feedback.feedback.status)
@@ -251,18 +254,19 @@ def tells_its_time(goal: Goal) -> str | None:
     """navigation_time is the time since this goal was accepted"""
     if not life.accepted(goal) or life.interrupted(goal):
         return None
-    start, reports = goal.accepted_at, told(goal)
+    start, reports = goal.accepted_at, feedback_of(goal)
     if not reports or reports[-1].t - start < 2 * TIME_SLACK:
         return None
     for feedback in reports:
         claimed, true = tells.seconds(feedback.feedback.navigation_time), feedback.t - start
         expect(
             abs(claimed - true) <= TIME_SLACK,
-            expected=f"navigation_time near {true:.1f} s, since the goal was accepted",
+            expected=f"navigation_time about {true:.1f} s, the time since this goal was accepted",
             observed=f"{claimed:.1f} s",
-            help="Remember when the goal is accepted, and subtract that: neither the node's start nor the phase's."
+            help="Store the time when this goal is accepted, and subtract it from the current time. Do not use the "
+            "start of the node or of a phase."
             if claimed
-            else "Fill feedback.navigation_time from the time since the goal was accepted.",
+            else "Set feedback.navigation_time to the time since the goal was accepted.",
             at=feedback.t,
         )
     return life.phase(goal)
@@ -270,26 +274,26 @@ def tells_its_time(goal: Goal) -> str | None:
 
 @obligation(10, of=legs, see="08_navigation#eta-why")
 def estimates_the_time(leg: Leg) -> str:
-    """estimated_time_remaining is positive under way, and right within a factor of 2 half way"""
+    """estimated_time_remaining is positive under way, and half way it is right within a factor of 2"""
     for feedback in under_way(leg.goal):
         estimate = tells.seconds(feedback.feedback.estimated_time_remaining)
         expect(
             estimate > 0,
             expected="estimated_time_remaining above 0 while the robot is under way",
             observed=f"{estimate:.2f} s",
-            help="Fill it in every feedback, with rclpy.duration.Duration(seconds=…).to_msg(): int seconds alone are 0 "
-            "for the last second, and a speed of 0 divides by zero.",
+            help="Set it in every feedback, with rclpy.duration.Duration(seconds=…).to_msg(). With sec alone it is 0 "
+            "in the last second. Do not divide by a speed of 0.",
             at=feedback.t,
         )
-    estimate = tells.seconds(told_half_way(leg).feedback.estimated_time_remaining)
+    estimate = tells.seconds(feedback_half_way(leg).feedback.estimated_time_remaining)
     left = leg.end - leg.half
     expect(
-        left / FACTOR <= estimate <= left * FACTOR,
-        expected=f"estimated_time_remaining from {left / FACTOR:.1f} to {left * FACTOR:.1f} s half way, as it took "
-        f"{left:.1f} s more",
+        left / ESTIMATE_FACTOR <= estimate <= left * ESTIMATE_FACTOR,
+        expected=f"half way estimated_time_remaining from {left / ESTIMATE_FACTOR:.1f} to "
+        f"{left * ESTIMATE_FACTOR:.1f} s, as the robot then took {left:.1f} s more",
         observed=f"{estimate:.1f} s",
-        help="Divide what is left by the speed that the robot really has while it walks, and add the time of the last "
-        "turn and of standing still.",
+        help="Divide the remaining distance by the measured walking speed, and add the time for the last turn and for "
+        "coming to rest.",
         at=leg.half,
     )
     return life.phase(leg.goal)
@@ -297,30 +301,35 @@ def estimates_the_time(leg: Leg) -> str:
 
 @obligation(5, 11, of=goals, see="08_navigation#zero-why")
 def progress_rises(goal: Goal) -> str | None:
-    """progress_percentage is 0 to 100, never falls, and is 100 in the last feedback before the goal SUCCEEDED"""
-    if not life.accepted(goal) or life.interrupted(goal) or not (told(goal) or goal.status == SUCCEEDED):
+    """progress_percentage is from 0 to 100, never falls, and is 100 in the last feedback of a goal that SUCCEEDED"""
+    if (
+        not life.accepted(goal)
+        or life.interrupted(goal)
+        or not (feedback_of(goal) or goal.status == SUCCEEDED)
+    ):
         return None
     before = 0.0
-    for feedback in told(goal):
+    for feedback in feedback_of(goal):
         progress = float(feedback.feedback.progress_percentage)
         expect(
             0.0 <= progress <= 100.01,
             expected="progress_percentage from 0 to 100",
             observed=f"{progress:g}",
-            help="0/0 is NaN where nothing is left to walk, and a longer way than at first is below 0: clamp it.",
+            help="If the goal equals the present pose, do not compute 0/0, which is NaN. Clamp the value to 0 to 100: "
+            "it is negative when the robot is farther away than at first.",
             at=feedback.t,
         )
         expect(
             progress >= before - 0.01,
             expected="progress_percentage never to fall",
             observed=f"{progress:.1f} after {before:.1f}",
-            help="A detour makes the way longer, and sway does so with every step: publish the largest value so far.",
+            help="A detour and the sway of each step increase the distance: publish the largest value so far.",
             at=feedback.t,
         )
         before = progress
     expect(
         before >= COMPLETE or goal.status != SUCCEEDED,
-        expected="100 percent in the last feedback of a goal that SUCCEEDED",
+        expected="progress_percentage 100 in the last feedback of a goal that SUCCEEDED",
         observed=f"{before:.1f}",
         help="Publish one more feedback with progress_percentage 100 before succeed().",
         at=goal.result.t if goal.result else None,
@@ -330,14 +339,14 @@ def progress_rises(goal: Goal) -> str | None:
 
 @obligation(11, of=legs)
 def half_done_half_way(leg: Leg) -> str:
-    """progress_percentage is about half where half of the distance is left"""
-    progress = told_half_way(leg).feedback.progress_percentage
+    """progress_percentage is about 50 when half of the distance is left"""
+    progress = feedback_half_way(leg).feedback.progress_percentage
     low, high = HALF_WAY
     expect(
         low <= progress <= high,
-        expected=f"progress_percentage from {low:.0f} to {high:.0f} where half of the distance is left",
+        expected=f"progress_percentage from {low:.0f} to {high:.0f} when half of the distance is left",
         observed=f"{progress:.1f}",
-        help="Compare what is left, in metres or in seconds, with what was left when the goal was accepted.",
+        help="Compare the remaining distance or time with its value when the goal was accepted.",
         at=leg.half,
     )
     return life.phase(leg.goal)
@@ -348,7 +357,7 @@ def half_done_half_way(leg: Leg) -> str:
 
 @obligation(12, 13, of=goals, see="08_navigation#odometer-why")
 def measures_its_path(goal: Goal) -> str | None:
-    """distance_traveled is the path of the pelvis without its sway, walked for this goal, however it ends"""
+    """distance_traveled is the path of the pelvis during this goal, without sway, however the goal ends"""
     end = goal.result
     if not life.accepted(goal) or end is None or life.interrupted(goal) or life.went_down(goal):
         return None
@@ -360,18 +369,21 @@ def measures_its_path(goal: Goal) -> str | None:
     there, here = goal.run.robot_at(goal.accepted_at), goal.run.robot_at(end.t)
     straight = math.hypot(here.x - there.x, here.y - there.y)
     if claimed > walked:
-        help = _ODOM_TELLS if operated(goal) else _OF_EACH_GOAL if life.others(goal) else _COUNTS_SWAY
-    elif abs(claimed - straight) < LEAST / 2:
+        help = _MEASURE_IN_ODOM if operated(goal) else _OF_EACH_GOAL if life.others(goal) else _COUNTS_SWAY
+    elif abs(claimed - straight) < MIN_PATH_SLACK / 2:
         help = (
-            "That is the straight distance from start to end: add up the legs of the path, and the way back."
+            "That is the straight distance from start to end: add up all distances along the path, also back."
         )
     else:
-        help = "Count the path in every round of the loop, from acceptance to the end, also while the robot turns."
-    slack = max(SHARE * walked, LEAST)
-    least, most = directly - slack - (2 if detour else 0 if ends_standing else 1) * LOST, walked + slack
+        help = "Add to the path in every round of the loop, from acceptance to the end, also while the robot turns."
+    slack = max(PATH_SHARE * walked, MIN_PATH_SLACK)
+    least, most = (
+        directly - slack - (2 if detour else 0 if ends_standing else 1) * LOST_AT_A_TURN,
+        walked + slack,
+    )
     expect(
         least <= claimed <= most,
-        expected=f"result.distance_traveled near {walked:.2f} m ({least:.2f} to {most:.2f} m), the path of the pelvis "
+        expected=f"result.distance_traveled about {walked:.2f} m ({least:.2f} to {most:.2f} m), the path of the pelvis "
         "without its sway",
         observed=f"{claimed:.2f} m",
         help=help,
@@ -382,26 +394,26 @@ def measures_its_path(goal: Goal) -> str | None:
 
 @obligation(14, 15, of=goals, see="08_navigation#loops-why")
 def finds_its_way_back(goal: Goal) -> str | None:
-    """Led back and turned by a remote control, the robot finds its way again, and arrives"""
+    """After an operator has walked the robot back and turned it, it still arrives"""
     if led_astray(goal) is None:
         return None
     require_arrival(goal)
-    return "led astray"
+    return "a detour"
 
 
 @obligation(15, of=goals, see="08_navigation#recovery-why")
 def counts_no_recovery(goal: Goal) -> str | None:
-    """number_of_recoveries stays 0 while nothing disturbs the robot, also after a goal on whose way something did"""
-    if not life.accepted(goal) or life.interrupted(goal) or operated(goal) or not told(goal):
+    """number_of_recoveries stays 0 for an undisturbed goal, also after a disturbed one"""
+    if not life.accepted(goal) or life.interrupted(goal) or operated(goal) or not feedback_of(goal):
         return None
-    counted = max(told(goal), key=lambda feedback: feedback.feedback.number_of_recoveries)
+    counted = max(feedback_of(goal), key=lambda feedback: feedback.feedback.number_of_recoveries)
     expect(
         counted.feedback.number_of_recoveries == 0,
-        expected="number_of_recoveries 0: nothing disturbed the robot on the way to this goal",
+        expected="number_of_recoveries 0, as nothing disturbed the robot during this goal",
         observed=f"{counted.feedback.number_of_recoveries}",
-        help="Count for each goal anew. The turn at the start is no recovery, nor is a bearing that swings when the "
-        "goal is a step away: count only when the robot walks, farther than 0.3 m from the goal, and is off by more "
-        "than 0.5 rad.",
+        help="Start at 0 for each goal. Do not count the turn at the start, nor the changing bearing within a step of "
+        "the goal: count only if the robot walks, is farther than 0.3 m from the goal, and its heading is more than "
+        "0.5 rad off the goal.",
         at=counted.t,
     )
     return life.phase(goal)
@@ -409,37 +421,37 @@ def counts_no_recovery(goal: Goal) -> str | None:
 
 @obligation(14, 15, of=goals, see="08_navigation#recovery-why")
 def counts_the_detour(goal: Goal) -> str | None:
-    """number_of_recoveries counts a detour, once"""
+    """number_of_recoveries counts a detour once"""
     moments = led_astray(goal)
     if moments is None:
         return None
     taken, given = moments
-    counts = [each.feedback.number_of_recoveries for each in told(goal)]
-    early = [each.feedback.number_of_recoveries for each in told(goal) if each.t < taken]
+    counts = [each.feedback.number_of_recoveries for each in feedback_of(goal)]
+    early = [each.feedback.number_of_recoveries for each in feedback_of(goal) if each.t < taken]
     expect(
         not early or early[-1] == 0,
         expected="number_of_recoveries 0 until something disturbs the robot",
         observed=f"{early[-1] if early else 0}",
-        help="The turn at the start is no recovery.",
+        help="Do not count the turn at the start as a recovery.",
         at=taken,
     )
     if not counts:
         raise not_shown(goal.run, f"feedback on “{goal.name}” comes before its result")
     expect(
-        1 <= counts[-1] <= MOST_DETOURS,
-        expected="number_of_recoveries 1 after the robot was led astray once",
+        1 <= counts[-1] <= MAX_DETOURS,
+        expected="number_of_recoveries 1 after one detour",
         observed=f"{counts[-1]}",
-        help="Count where the walking phase changes back to turning, not in every round of the loop."
+        help="Count when the phase changes from walking back to turning, not in every round of the loop."
         if counts[-1]
-        else "While it walks, compare the goal's bearing with the heading: beyond 0.5 rad go back to the turning phase "
-        "and add 1.",
+        else "While the robot walks, compare the goal's bearing with the heading: if they differ by more than 0.5 rad, "
+        "go back to the turning phase and add 1.",
         at=given,
     )
     expect(
         sorted(counts) == counts,
         expected="number_of_recoveries never to fall",
         observed=f"{counts}",
-        help="Count for the whole goal.",
+        help="Set number_of_recoveries to 0 only when a goal starts.",
         at=given,
     )
-    return "led astray"
+    return "a detour"

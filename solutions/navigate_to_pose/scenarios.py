@@ -1,4 +1,4 @@
-"""What is done to a navigation server. No expected answers here: this runs in the arena."""
+"""The steps of scenarios for a navigate_to_pose server. No expected responses here: this runs in the arena."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from autograder.arena.stage import Stage
 from autograder.arena.walking_steps import COMING_NEAR, walk_in_order
 from humanoid_interfaces.action import NavigateToPose
 
-BACKWARD, TURN = -0.2, 0.45  # m/s, rad/s of the remote control
-TURNING = 2.5  # s
+BACKWARD, TURN = -0.2, 0.45  # m/s and rad/s commanded by the operator
+TURN_DURATION = 2.5  # s
 
 
 def in_order(stage: Stage, steps: Steps) -> None:
-    """Send goals, ask to cancel, take the robot over, disturb it, wait: in the order of the steps."""
+    """Send goals, cancel them, control the robot as an operator, disturb it and wait, in the order of the steps."""
     robot = stage.robot
 
     def get_away(distance: float) -> None:
-        """Wait until the robot is so far (m) from the origin."""
+        """Wait until the robot is at a distance (m) from the origin."""
         robot.wait_for(lambda state: math.hypot(state.x, state.y) > distance, COMING_NEAR)
 
     def lead_astray(back: float, side: float) -> None:
-        """Take the robot over: walk it back for so long (s), turn it to a side (1 left, -1 right), and give it back."""
+        """As an operator walk the robot back for `back` s, turn it to a side (1 left, -1 right), then release it."""
         robot.take_over((BACKWARD, 0.0, 0.0))
         stage.wait(back)
         robot.take_over((0.0, 0.0, side * TURN))
-        stage.wait(TURNING)
+        stage.wait(TURN_DURATION)
         robot.give_back()
 
     walk_in_order(

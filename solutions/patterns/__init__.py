@@ -1,1 +1,1 @@
-"""Chapter 1: topic, service or action? Twelve situations, each answered with a pattern and the reason for it."""
+"""Chapter 1: a quiz with twelve situations; each answer is topic, service or action, and a reason."""

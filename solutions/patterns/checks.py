@@ -1,4 +1,4 @@
-"""What students can see being checked: the form of the answers, and the first six situations."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ answers_everything = check(on=ANSWERS, see=LESSON, clauses=[1, 2, 4])(judging.an
 situations = [
     situation(
         1,
-        "joint angles for whoever draws or logs them",
+        "joint angles for any program that draws or logs them",
         "topic a",
-        service="Every listener would have to send twenty requests a second for numbers that flow anyway.",
+        service="Every subscriber would have to send twenty requests a second for numbers that are published anyway.",
         action="An action needs a goal that can be reached or cancelled, and there is none here.",
         b="A lost sample does no harm: the next one comes 50 ms later.",
-        c="The robot sends the angles whether anybody asks or not, and that decides it.",
+        c="The robot sends the angles without a request. What decides is who starts the communication.",
     ),
     situation(
         2,
         "motors on or off, unless the robot walks",
         "service b",
-        topic="A topic carries no answer: the program that publishes “off” never learns that the robot refused.",
+        topic="A topic carries no response: the program that publishes “off” does not learn that the robot refused.",
         action="The robot does it or refuses it at once, so there is nothing to watch or to cancel.",
-        a="How often it happens does not matter. What matters is whether the caller needs an answer.",
+        a="How often it happens does not matter. What matters is whether the caller needs a response.",
         c="No pattern guarantees that the work is done: the server can die before it.",
     ),
     situation(
@@ -34,22 +34,22 @@ situations = [
         topic="A topic tells the caller neither that the robot arrived nor how to cancel this walk.",
         service="The caller would wait for half a minute, see no progress, and could not stop the robot.",
         a="The distance does not matter. Ask whether the caller may have to stop or watch the walk.",
-        b="A service tells that as well. What else can only an action do?",
+        b="A service can do that as well. Look for what only an action can do.",
     ),
     situation(
         4,
         "velocity commands from a joystick",
         "topic a",
-        service="Twenty commands a second need no answers: the next command comes before you could use one.",
-        action="A velocity is no goal: it is never reached.",
-        b="Topics, services and actions all carry commands, so the word does not decide it.",
-        c="A lost command does no harm: the next one comes 50 ms later, and silence means stop.",
+        service="Twenty commands a second need no responses: the next command comes before you could use a response.",
+        action="A velocity is not a goal: it is never reached.",
+        b="Topics, services and actions can all carry commands, so that does not decide it.",
+        c="A lost command does no harm: the next one comes 50 ms later, and without commands the robot stops.",
     ),
     situation(
         5,
-        "joint angles for a point the hand shall reach",
+        "joint angles for a point that the hand has to reach",
         "service b",
-        topic="On a topic nothing connects an answer with its question: whose answer is it?",
+        topic="On a topic nothing connects a response with its request, so a client cannot find its own response.",
         action="The robot computes it in less than a millisecond, so there is nothing to watch or to cancel.",
         a="All three patterns can carry the result of a calculation.",
         c="A message on a topic can have a frame, too.",
@@ -60,7 +60,7 @@ situations = [
         "action a",
         topic="A topic does not tell the caller that the cup has slipped.",
         service="The caller could not stop the arm on the way, and would not see how far it is.",
-        b="The answer of a service can hold a number, too.",
+        b="The response of a service can have a number, too.",
         c="The duration does not matter. What matters is that it can fail on the way and can be stopped.",
     ),
 ]

@@ -18,17 +18,17 @@ _LINE = re.compile(r"\s*(\d{1,4})\W+(\w+)\W+(\w+)\s*")
 
 
 def situation(number: int, about: str, answer: str, **against: str) -> Check:
-    """Make the check of one situation: its right answer as it is printed, and what speaks `against` the others."""
+    """Make the check of one situation, from its right answer as printed, and the objection `against` each wrong one."""
     right_pattern, right_reason = answer.split()
 
     def judge(run: Transcript) -> None:
-        answers, expected = _answers(run), "the pattern that fits, and the reason that decides it"
+        answers, expected = _answers(run), "the right pattern and the reason that decides it"
         expect(number in answers, expected=expected, observed="no answer", help=_how_to_answer(run, number))
         pattern, reason = answers[number]
         _require_form(number, pattern, reason)
         if (pattern, reason) != (right_pattern, right_reason):
             help = against[pattern if pattern != right_pattern else reason]
-            raise Failure(expected=expected, observed=f"{pattern}, because of {reason}", help=help)
+            raise Failure(expected=expected, observed=f"pattern {pattern}, reason {reason}", help=help)
 
     title, id = f"Situation {number}: {about}", f"situation_{number}"
     return check_by(judge, title, on=ANSWERS, see=LESSON, clauses=[1, 2, 3], id=id)
@@ -44,7 +44,7 @@ def answers_everything(run: Transcript) -> None:
     expect(
         not missing,
         expected="a line “NUMBER PATTERN REASON” for each of the 12 situations",
-        observed=f"none for {', '.join(map(str, missing))}",
+        observed=f"no line for {', '.join(map(str, missing))}",
         help=_how_to_answer(run, missing[0] if missing else 0),
     )
 
@@ -57,12 +57,12 @@ def _answers(run: Transcript) -> dict[int, tuple[str, str]]:
 
 
 def _how_to_answer(run: Transcript, number: int) -> str:
-    """Return what to do about a situation without an answer."""
+    """Return advice on a situation without an answer."""
     printed = [line for line in run.output("stdout").splitlines() if line.strip()]
     if not printed:
         return "Nothing was printed: main() has to print number, pattern and reason of each line in ANSWERS."
     if not _answers(run):
-        return f"“{printed[-1][:60]}” is of another form: print number, pattern and reason, and nothing else."
+        return f"“{printed[-1][:60]}” is not in the right form: print only the number, the pattern and the reason."
     return f"Add a line {number}: (pattern, reason) to ANSWERS; main() prints it."
 
 
@@ -71,5 +71,5 @@ def _require_form(number: int, pattern: str, reason: str) -> None:
         pattern in PATTERNS and len(reason) == 1 and reason in REASONS,
         expected=f"for situation {number} one of {', '.join(PATTERNS)}, and a reason a, b or c",
         observed=f"{pattern} {reason}",
-        help="Write both as strings, the pattern first, such as ('topic', 'a').",
+        help="Write both as strings, the pattern first, for example ('topic', 'a').",
     )

@@ -1,4 +1,4 @@
-"""A quiz is a program that prints its answers. No key here: this runs in the arena."""
+"""The scenario runs the program that prints the answers. No right answers here: this runs in the arena."""
 
 from __future__ import annotations
 
@@ -6,6 +6,6 @@ from autograder.arena.client_stage import ClientStage
 
 
 def print_answers(stage: ClientStage) -> None:
-    """Run the program to its end."""
+    """Run the program until it exits."""
     stage.start_program()
     stage.wait_for_end()

@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from autograder.authoring import Scenario, check_of, in_order, standard
 from . import model
 
 TABLE = ("--scene", "table")
-AFTERWARDS = 1.5  # s after a result in which nothing more may happen
+AFTERWARDS = 1.5  # s after a result, for which the scenario goes on recording
 PLACE = [0.35, -0.27]  # x, y m in odom
 HERE = [0.33, -0.25]
 
 
 def at_the_table(*steps: Sequence[Any], **inputs: Any) -> Scenario:
-    """Return the scenario of steps with hand and cup watched, and some time more at the end."""
+    """Return the scenario of these steps, which records hand and cup until some time after the last step."""
     return in_order(*steps, ["wait", AFTERWARDS], robot=TABLE, **inputs)
 
 
@@ -84,7 +84,7 @@ percentage_rises = check_of(model.percentage, on=FETCH, needs=places_the_cup)
 feedback_ends_with_the_goal = check_of(model.no_late_feedback, on=FETCH, needs=places_the_cup)
 rejects_a_wrong_place = check_of(
     [model.rejects_frames, model.rejects_not_finite],
-    title="It rejects a place in another frame than odom, and one that holds NaN or infinity",
+    title="It rejects a place_pose in another frame than odom, and one with a NaN or infinite coordinate",
     on=IMPOSSIBLE,
     needs=accepts_a_goal,
     see="09_arms#base-intro",
@@ -113,7 +113,7 @@ notices_an_empty_hand = check_of(
 withdraws_an_empty_hand = check_of(model.withdraws_empty, on=TAKEN, needs=notices_an_empty_hand)
 notices_a_lost_cup = check_of(
     [model.lost_object, model.says_why_it_aborted],
-    title="When the cup is lost while it is lifted the goal ends with DROPPED",
+    title="When the cup is lost while it is lifted, the goal ends with DROPPED",
     points=2,
     on=SNATCHED,
     needs=lifts_the_cup,
@@ -123,7 +123,7 @@ gives_up_when_blocked = check_of(
 )
 cancels_before_the_grasp = check_of(
     model.leaves_the_cup,
-    title="A cancel on the way to the cup ends CANCELED, with the hand withdrawn and the cup where it was",
+    title="A cancel before the hand grasps the cup ends CANCELED, with the hand withdrawn and the cup where it was",
     points=2,
     on=CANCEL,
     needs=accepts_a_goal,

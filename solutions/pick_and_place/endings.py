@@ -1,21 +1,20 @@
-"""Judges how a goal ended: SUCCEEDED, or ABORTED with a code and a reason."""
+"""Checks how a goal ended: SUCCEEDED, or ABORTED with an error_code and a reason."""
 
 from __future__ import annotations
 
 from autograder.authoring import ABORTED, SUCCEEDED, Failure, Goal, error_name, ev, why_rclpy_aborted
 from humanoid_interfaces.action import PickAndPlace
 
-_WHY_IT_GAVE_UP = {
-    "UNKNOWN_OBJECT": "objects/cup/pose comes ten times a second. Is anything of your node served while execute "
-    "waits? On one thread time.sleep keeps every message out: use MultiThreadedExecutor, or an async execute that "
-    "awaits.",
-    "UNREACHABLE": "Look at what you asked of compute_arm_ik: frame odom, the right arm, a hand that points ahead, a "
+_ADVICE_ON_ABORTS = {
+    "UNKNOWN_OBJECT": "objects/cup/pose is published ten times a second. On one thread, no callback runs while execute "
+    "is in time.sleep: use MultiThreadedExecutor, or make execute async and await in it.",
+    "UNREACHABLE": "Check your requests to compute_arm_ik: frame odom, the right arm, a hand that points ahead, a "
     "place above the table.",
-    "GRASP_FAILED": "Was the open hand around the cup, 0.01 m above its centre, before it closed? And is the force "
-    "that you compare force.y of r_gripper/wrench?",
-    "DROPPED": "Let the fingers press with grasp_force before you lift. And when you put the cup down, the force may "
-    "vanish: nothing is lost then.",
-    "FELL": "Move the hand slowly, 0.2 m/s at most: a long reach in a jerk topples the robot.",
+    "GRASP_FAILED": "Close the hand only when it is open around the cup, 0.01 m above its centre. Compare force.y of "
+    "r_gripper/wrench.",
+    "DROPPED": "Close the fingers until the force is grasp_force before you lift. Do not report DROPPED while you put "
+    "the cup down: the force may fall to 0 then.",
+    "FELL": "Move the hand slowly, 0.2 m/s at most: moving it far and fast topples the robot.",
 }
 
 
@@ -27,7 +26,9 @@ def require_succeeded(goal: Goal) -> ev.ResultReceived:
         raise Failure(
             expected="status SUCCEEDED",
             observed=f"status ABORTED, error_code {said.error_code} ({code}): {said.error_msg[:200]!r}",
-            help=_WHY_IT_GAVE_UP.get(code, "This goal can be carried out: find out why your server gave up."),
+            help=_ADVICE_ON_ABORTS.get(
+                code, "This goal can be carried out: find out why your server aborted it."
+            ),
             at=goal.result.t,
         )
     return goal.require_result(SUCCEEDED)

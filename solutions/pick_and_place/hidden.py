@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks."""
+"""The hidden checks, which only the instructor's grading runs."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from autograder.classroom.hidden_checks import standard_hidden
 from . import checks, model
 from .checks import AFTERWARDS, HERE, TABLE
 
-NAMES = ("tea pot", "", "cup/", "7cups", "tasse-1")  # that no topic can have
+INVALID_NAMES = ("tea pot", "", "cup/", "7cups", "tasse-1")  # not allowed in the name of a topic
 
 
 def _near(random: Random) -> list[float]:
@@ -21,12 +21,12 @@ def _near(random: Random) -> list[float]:
 
 
 def _aside(random: Random) -> list[float]:
-    """Draw a place farther to the right, 8 cm from any that is near at least."""
+    """Draw a place farther to the right, at least 8 cm from any of `_near`."""
     return [random.uniform(0.335, 0.365), random.uniform(-0.27, -0.23)]
 
 
 def _fetching(random: Random) -> list[Any]:
-    """Ask for what is not there and for what is impossible, then fetch twice, firmly and gently."""
+    """Send goals for unknown objects and impossible goals, then fetch the cup twice, firmly and gently."""
     first, second = random.sample((_near, _aside), 2)
     wrong: list[list[Any]] = [
         ["go", "no frame of ours", HERE, 10.0, "cup", random.choice(("map", "base_link", "", "ODOM"))],
@@ -36,7 +36,7 @@ def _fetching(random: Random) -> list[Any]:
             random.choice(([random.choice(NOT_FINITE), -0.25], [0.33, random.choice(NOT_FINITE)])),
         ],
         ["go", "no force", HERE, random.choice((-0.1, 0.0, 25.5, *NOT_FINITE))],
-        ["go", "no name", HERE, 10.0, random.choice(NAMES)],
+        ["go", "no name", HERE, 10.0, random.choice(INVALID_NAMES)],
         ["go", "unknown", HERE, 10.0, random.choice(("teapot", "cups"))],
     ]
     random.shuffle(wrong)
@@ -54,7 +54,7 @@ def _fetching(random: Random) -> list[Any]:
 
 
 def _starting_over(random: Random) -> list[Any]:
-    """Cancel while the fingers close, put the cup elsewhere, and fetch it."""
+    """Cancel while the fingers close, move the cup elsewhere, then fetch it."""
     return [
         *(["put_cup", *_near(random)], ["go", "canceled", _aside(random)], ["wait_until", "touching"]),
         *(["cancel", "canceled"], ["arrive", "canceled"], ["wait", AFTERWARDS]),
@@ -63,7 +63,7 @@ def _starting_over(random: Random) -> list[Any]:
 
 
 def _on_the_way(random: Random) -> list[Any]:
-    """Cancel when most of the way is over, and take the cup away halfway."""
+    """Cancel one goal late on its way, and take the cup away halfway through another."""
     near, aside = [0.32, -0.10], [0.34, -0.28]
     return [
         *(["put_cup", *near], ["go", "late", aside, random.uniform(9.0, 11.0)]),
@@ -88,7 +88,7 @@ OTHER_NAMESPACE = checks.at_the_table(
     ["go", "fetch", [0.35, -0.25]], ["arrive", "fetch"], namespace="/lab_7/robot"
 )
 
-EVERY_GOAL = (  # what holds of it, however it ends
+EVERY_GOAL = (  # what holds for a goal however it ends
     model.accepts,
     model.puts_down,
     model.names_stages,
@@ -110,7 +110,7 @@ fetches_from_anywhere = check_of(
         model.lifts,
         model.filled_result,
     ],
-    title="It finds the cup wherever it stands, puts it down wherever it has to stand, and keeps every clause",
+    title="It fetches the cup from any place to any place_pose, and fulfils every clause meanwhile",
     points=2,
     on=FETCHING,
     needs=checks.places_the_cup,
@@ -118,7 +118,7 @@ fetches_from_anywhere = check_of(
 )
 obeys_any_force = check_of(
     [model.places, model.keeps_force],
-    title="It holds the cup with whatever force is asked for, firm or gentle",
+    title="It holds the cup with the grasp_force of the goal, firm or gentle",
     points=2,
     on=FETCHING,
     needs=[checks.keeps_the_force, fetches_from_anywhere],
@@ -126,20 +126,20 @@ obeys_any_force = check_of(
 )
 fetches_twice = check_of(
     [model.accepts, model.places_again],
-    title="After a goal it carries out another",
+    title="After one goal it carries out another",
     on=FETCHING,
     needs=checks.places_the_cup,
     see="09_arms#careful-why",
 )
 survives_a_name_that_is_none = check_of(
     [model.unknown_objects, model.says_why_it_aborted],
-    title="An object_id that cannot be part of a topic's name is an unknown object, too",
+    title="An object_id that cannot be part of a topic's name also ends with UNKNOWN_OBJECT",
     on=FETCHING,
     needs=checks.knows_no_teapot,
 )
 notices_a_loss_on_the_way = check_of(
     [model.lost_object, model.says_why_it_aborted],
-    title="When the cup is lost on its way across the goal ends with DROPPED, too",
+    title="When the cup is lost while it is moved across, the goal ends with DROPPED",
     on=ON_THE_WAY,
     needs=checks.notices_a_lost_cup,
 )
@@ -152,7 +152,7 @@ cancels_while_closing = check_of(
 )
 puts_the_cup_at_the_nearer_place = check_of(
     [model.puts_away, *EVERY_GOAL, model.keeps_force],
-    title="A cancel when the cup is nearly there puts it at place_pose, then ends CANCELED",
+    title="After a cancel shortly before arrival, the cup is put at place_pose, then the goal ends CANCELED",
     points=2,
     on=ON_THE_WAY,
     needs=checks.puts_the_cup_back,

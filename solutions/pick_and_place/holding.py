@@ -8,18 +8,18 @@ from autograder.authoring import SUCCEEDED, Goal, ev, expect, why_rclpy_aborted
 from autograder.authoring.walking.life import ended_at, phase
 
 from .life import canceled_at, holds_at, is_for_the_cup, robbed_at
-from .objections import MOST_FORCE
+from .objections import MAX_FORCE
 from .truth import carried, reports, taken_from
 
-HIGH = 0.05  # m
-BAND = 0.30  # of the force that was asked for
-GLITCHES = 0.02  # of the samples
-MIN_SAMPLES = 5  # samples
+MIN_LIFT = 0.05  # m
+FORCE_TOLERANCE = 0.30  # as a share of grasp_force
+MAX_OUTLIERS = 0.02  # as a share of the samples
+MIN_SAMPLES = 5
 GENTLE, FIRM = 7.0, 12.0  # N
 
 
 def lifts(goal: Goal) -> str | None:
-    """It lifts the cup on its way, by 5 cm at least."""
+    """It lifts the cup by at least 5 cm on its way."""
     result = goal.result
     if result is None or result.status != SUCCEEDED:
         return None
@@ -27,10 +27,10 @@ def lifts(goal: Goal) -> str | None:
     cups = reports(goal.run, ev.ObjectTruth, goal.accepted_at, result.t)
     top = max(cup.position[2] for cup in cups) - height
     expect(
-        top >= HIGH,
-        expected=f"the cup lifted by at least {HIGH:.2f} m on its way",
+        top >= MIN_LIFT,
+        expected=f"the cup lifted by at least {MIN_LIFT:.2f} m on its way",
         observed=f"it was at most {top:.3f} m above where it stood",
-        help="Close the hand, move it straight up by 0.12 m, then across, then down.",
+        help="Close the hand on the cup, move it straight up by 0.12 m, then across, then down.",
         at=result.t,
     )
     return phase(goal)
@@ -45,24 +45,24 @@ def keeps_the_force_asked_for(goal: Goal) -> str | None:
     if goal.status == SUCCEEDED:
         expect(
             len(held) >= MIN_SAMPLES,
-            expected="the cup off the table for a while",
-            observed="it never was",
+            expected="the cup to be lifted off the table",
+            observed="it never left the table",
             help="Close the hand around the cup and lift it.",
             at=until,
         )
     if len(held) < MIN_SAMPLES:
         return None
     wanted = goal.request.grasp_force
-    low, high = wanted * (1 - BAND), min(MOST_FORCE, wanted * (1 + BAND))
-    outside = [grip for grip in held if not low <= grip.force <= high or grip.strongest > MOST_FORCE]
+    low, high = wanted * (1 - FORCE_TOLERANCE), min(MAX_FORCE, wanted * (1 + FORCE_TOLERANCE))
+    outside = [grip for grip in held if not low <= grip.force <= high or grip.strongest > MAX_FORCE]
     worst = max(held, key=lambda grip: abs(grip.force - wanted))
     expect(
-        len(outside) <= GLITCHES * len(held),
-        expected=f"a grasp force from {low:.1f} to {high:.1f} N while the cup is in the air ({wanted:g} N asked for)",
+        len(outside) <= MAX_OUTLIERS * len(held),
+        expected=f"a force from {low:.1f} to {high:.1f} N while the cup is in the air (grasp_force is {wanted:g} N)",
         observed=f"{worst.force:.1f} N",
-        help="A command is an opening, not a force. Each pad presses with 400 N for each metre by which the command is "
-        "narrower than the object: measure on r_gripper/wrench, and change the opening by what is missing, before you "
-        "lift.",
+        help="r_gripper/command is an opening in m, not a force. Each pad presses with 400 N per metre by which the "
+        "opening is narrower than the cup. Before you lift, measure force.y on r_gripper/wrench, and correct the "
+        "opening by the difference to grasp_force, divided by 400.",
         at=worst.t,
     )
     how = "firm" if wanted > FIRM else "gentle" if wanted < GENTLE else "as usual"
@@ -70,11 +70,11 @@ def keeps_the_force_asked_for(goal: Goal) -> str | None:
 
 
 def require_held_when(goal: Goal, t: float) -> None:
-    """Require that the cup hung in the hand at a time (s); otherwise the scenario has not tested anything."""
+    """Require that the hand held the cup off the table at a time (s); otherwise the scenario tests nothing."""
     expect(
         holds_at(goal, t),
-        expected="the cup off the table, in the hand, by then",
-        observed="it is not",
-        help=why_rclpy_aborted(goal) or "Grasp the cup and lift it before anything else is done with it.",
+        expected=f"the hand to hold the cup off the table {t - goal.accepted_at:.0f} s after the goal was accepted",
+        observed="the hand does not hold it off the table",
+        help=why_rclpy_aborted(goal) or "Grasp the cup and lift it as soon as the goal executes.",
         at=t,
     )

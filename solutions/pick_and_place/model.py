@@ -1,4 +1,4 @@
-"""What must hold of every goal of pick_and_place, clause by clause."""
+"""What must hold for every goal of pick_and_place, clause by clause."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from .life import rivals
 
 @obligation(1, of=goals, see="07_cancel_and_preempt#m2-why")
 def accepts(goal: Goal) -> str | None:
-    """It accepts a place in frame odom and a force of the hand's, whatever came before, when no goal is under way."""
+    """It accepts a place in frame odom with a possible grasp_force when no goal is active, also after others."""
     if not objections.is_sound(goal) or rivals(goal):
         return None
     if any(accepted(other) and other.sent.t < goal.sent.t for other in others(goal)):
         goal.require_accepted(
-            help=f"Nothing speaks against it: a finite place in odom, {goal.request.grasp_force:g} N of at most "
-            f"{objections.MOST_FORCE:g} N, and no goal under way any more. Does `finally` free the hand, however "
-            "execute ends?"
+            help=f"This goal is valid: a finite place in odom, {goal.request.grasp_force:g} N of at most "
+            f"{objections.MAX_FORCE:g} N, and no other goal is active. Record in a `finally` block of execute "
+            "that the hand is free, so that it is free however execute ends."
         )
     goal.require_accepted()
     return phase(goal)
@@ -59,7 +59,7 @@ keeps_order = obligation(18, 19, of=goals)(status_in_order)
 one_hand = obligation(20, of=goals, see="07_cancel_and_preempt#preempt-why")(safe_ends.gives_the_hand_to_one)
 
 
-# -- a goal after others ----------------------------------------------------------------------------------------------
+# -- a goal after an earlier one --------------------------------------------------------------------------------------
 
 
 def _places_after(status: int, sentence: str) -> Obligation:
@@ -71,5 +71,5 @@ def _places_after(status: int, sentence: str) -> Obligation:
     return obligation(3, of=goals)(require)
 
 
-places_again = _places_after(SUCCEEDED, "After a goal it carries out another")
+places_again = _places_after(SUCCEEDED, "After one goal it carries out another")
 places_after_a_cancel = _places_after(CANCELED, "After a cancel it carries out another goal")

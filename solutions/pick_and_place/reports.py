@@ -1,4 +1,4 @@
-"""What the server says in its feedback, beside what hand and cup did."""
+"""Compares the server's feedback with what hand and cup did."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from ros_runtime.message_constants import GoalStatus, name_of
 from .life import canceled_at, commanded, is_for_the_cup, robbed_at
 from .truth import Grip, as_tuple, grips, taken_from
 
-MIN_DURATION = 3.0  # s; a goal of less tells little about its feedback
-AGE = 0.7  # s that what feedback tells may be old
-AHEAD = 0.3  # s that a stage may be named before it begins
+MIN_DURATION = 3.0  # s; the feedback of a shorter goal is not checked
+MAX_AGE = 0.7  # s, of a measurement in the feedback
+MAX_LEAD = 0.3  # s, by which feedback may name a stage before it begins
 PLACE_SLACK = 0.04  # m
 FORCE_SLACK = 2.0  # N
 ROUNDING = 0.01  # percent
-MIN_LAST_PERCENT = 50.0  # percent, that are done at the last feedback at least
-FELT = 1.0  # N
-ABOVE = 0.03  # m
+MIN_LAST_PERCENT = 50.0  # percent, in the last feedback of a goal that SUCCEEDED
+TOUCH_FORCE = 1.0  # N
+OFF_THE_TABLE = 0.03  # m
 
 _FEEDBACK = PickAndPlace.Feedback
 STAGES = (
@@ -33,15 +33,15 @@ STAGES = (
 
 
 def feedback_at_5_hz(goal: Goal) -> str | None:
-    """Feedback comes at 5 Hz without a gap over 1 s."""
-    if not _is_worth_telling(goal):
+    """Feedback is published at 5 Hz, without a gap of more than 1 s."""
+    if not _must_have_feedback(goal):
         return None
     require_good_feedback_rate(goal)
     return _how_it_ended(goal)
 
 
 def names_stages_in_order(goal: Goal) -> str | None:
-    """The stage goes through approaching, grasping, lifting, moving, placing, retreating."""
+    """feedback.stage is approaching, grasping, lifting, moving, placing and retreating, in this order."""
     if not accepted(goal) or not goal.feedback:
         return None
     named = [event.feedback.stage for event in goal.feedback]
@@ -50,7 +50,8 @@ def names_stages_in_order(goal: Goal) -> str | None:
         unknown is None,
         expected=f"feedback.stage to be one of {', '.join(STAGES)}",
         observed=f"{unknown!r}",
-        help="Use the constants of PickAndPlace.Feedback: they are written in small letters.",
+        help="Use the constants of PickAndPlace.Feedback, e.g. PickAndPlace.Feedback.APPROACHING: their values are in "
+        "lower case.",
     )
     if goal.status != SUCCEEDED:
         return _how_it_ended(goal)
@@ -59,23 +60,23 @@ def names_stages_in_order(goal: Goal) -> str | None:
         order == list(STAGES),
         expected=f"the stages {', '.join(STAGES)}, in this order",
         observed=", ".join(order),
-        help="Set the stage when the stage begins, each once, and publish feedback all the time: also while you wait "
-        "for the hand, the fingers or an answer.",
+        help="Set feedback.stage once, when the stage begins. Publish feedback all the time, also while you wait for "
+        "the hand, the fingers or a response.",
         at=goal.feedback[0].t,
     )
     return _how_it_ended(goal)
 
 
 def stages_are_true_at(goal: Goal) -> str | None:
-    """Each stage is named while it lasts."""
-    if not _is_worth_telling(goal):
+    """feedback.stage names a stage while it lasts."""
+    if not _must_have_feedback(goal):
         return None
     height = taken_from(goal)[2]
     signs: dict[str, tuple[str, Callable[[Grip], bool]]] = {
-        _FEEDBACK.APPROACHING: ("nothing between the fingers", lambda grip: grip.force < FELT),
-        _FEEDBACK.LIFTING: ("the cup between the fingers", lambda grip: grip.force >= FELT),
-        _FEEDBACK.MOVING: ("the cup off the table", lambda grip: grip.cup[2] > height + ABOVE),
-        _FEEDBACK.RETREATING: ("nothing between the fingers any more", lambda grip: grip.force < FELT),
+        _FEEDBACK.APPROACHING: ("nothing between the fingers", lambda grip: grip.force < TOUCH_FORCE),
+        _FEEDBACK.LIFTING: ("the cup between the fingers", lambda grip: grip.force >= TOUCH_FORCE),
+        _FEEDBACK.MOVING: ("the cup off the table", lambda grip: grip.cup[2] > height + OFF_THE_TABLE),
+        _FEEDBACK.RETREATING: ("nothing between the fingers any more", lambda grip: grip.force < TOUCH_FORCE),
     }
     whole, cut = _seen_by(goal), min(canceled_at(goal) or math.inf, robbed_at(goal) or math.inf)
     for event in goal.feedback:
@@ -83,12 +84,13 @@ def stages_are_true_at(goal: Goal) -> str | None:
         if stage not in signs or event.t > cut:
             continue
         what, is_so = signs[stage]
-        seen = between(whole, event.t - AGE, event.t + AHEAD)
+        seen = between(whole, event.t - MAX_AGE, event.t + MAX_LEAD)
         expect(
             any(map(is_so, seen)),
-            expected=f"{what} while the stage is {stage!r}",
-            observed=f"{seen[-1].force:.1f} N, and a cup {seen[-1].cup[2] - height:.2f} m above where it stood",
-            help="Set the stage when it begins, not when it is over.",
+            expected=f"{what} while feedback.stage is {stage!r}",
+            observed=f"a force of {seen[-1].force:.1f} N, and the cup {seen[-1].cup[2] - height:.2f} m above where it "
+            "stood",
+            help="Set feedback.stage when the stage begins, not when it is over.",
             at=event.t,
         )
     return _how_it_ended(goal)
@@ -96,11 +98,11 @@ def stages_are_true_at(goal: Goal) -> str | None:
 
 def values_are_measured(goal: Goal) -> str | None:
     """hand_pose, distance_to_object and grasp_force in the feedback are measured."""
-    if not _is_worth_telling(goal):
+    if not _must_have_feedback(goal):
         return None
     whole = _seen_by(goal)
     for event in goal.feedback:
-        seen = between(whole, event.t - AGE, event.t)
+        seen = between(whole, event.t - MAX_AGE, event.t)
         _require_true_hand(event, seen)
         _require_between(
             event,
@@ -108,7 +110,7 @@ def values_are_measured(goal: Goal) -> str | None:
             [grip.distance for grip in seen],
             PLACE_SLACK,
             "m",
-            "It is the straight distance in x, y and z from r_hand/pose to objects/<id>/pose.",
+            "Compute the distance in x, y and z between r_hand/pose and objects/<id>/pose.",
         )
         _require_between(
             event,
@@ -116,13 +118,13 @@ def values_are_measured(goal: Goal) -> str | None:
             [grip.force for grip in seen],
             FORCE_SLACK,
             "N",
-            "It is wrench.force.y of the last r_gripper/wrench, not what the goal asks for.",
+            "Copy wrench.force.y of the last message on r_gripper/wrench, not the goal's grasp_force.",
         )
     return _how_it_ended(goal)
 
 
-def _is_worth_telling(goal: Goal) -> bool:
-    """Return whether there was a cup to tell of, and no fall or Ctrl-C ended it; then there has to be feedback."""
+def _must_have_feedback(goal: Goal) -> bool:
+    """Return whether the goal was for the cup and lasted, without a fall or Ctrl-C; if so, require feedback."""
     if not is_for_the_cup(goal) or left_alone(goal) or interrupted(goal) or commanded(goal, "push"):
         return False
     if ended_at(goal) < goal.accepted_at + MIN_DURATION:
@@ -136,8 +138,8 @@ def _how_it_ended(goal: Goal) -> str:
 
 
 def _seen_by(goal: Goal) -> list[Grip]:
-    """Return hand and cup of the time that the feedback tells of."""
-    return grips(goal.run, goal.feedback[0].t - AGE, min(goal.feedback[-1].t + AHEAD, goal.run.end))
+    """Return hand and cup for the whole time that the feedback describes."""
+    return grips(goal.run, goal.feedback[0].t - MAX_AGE, min(goal.feedback[-1].t + MAX_LEAD, goal.run.end))
 
 
 def _require_true_hand(event: ev.FeedbackReceived, seen: Sequence[Grip]) -> None:
@@ -148,7 +150,7 @@ def _require_true_hand(event: ev.FeedbackReceived, seen: Sequence[Grip]) -> None
         said.header.frame_id == "odom" and off <= PLACE_SLACK,
         expected=f"feedback.hand_pose in frame odom near x {x:.2f}, y {y:.2f}, z {z:.2f} m",
         observed=f"frame {said.header.frame_id!r}, {off:.2f} m from there",
-        help="Copy the last message of r_hand/pose, header and pose.",
+        help="Copy header and pose of the last message on r_hand/pose.",
         at=event.t,
     )
 
@@ -169,7 +171,7 @@ def _require_between(
 
 def percentage_never_falls(goal: Goal) -> str | None:
     """percent_complete rises from 0 towards 100 and never falls."""
-    if not _is_worth_telling(goal):
+    if not _must_have_feedback(goal):
         return None
     cut = canceled_at(goal) or math.inf
     said = [(event.t, float(event.feedback.percent_complete)) for event in goal.feedback if event.t < cut]
@@ -178,15 +180,15 @@ def percentage_never_falls(goal: Goal) -> str | None:
             0.0 <= percent <= 100.0 + ROUNDING,
             expected="feedback.percent_complete from 0 to 100",
             observed=f"{percent:.1f}",
-            help="It is the share of the whole task that is done, in percent.",
+            help="Set percent_complete to the share of the whole task that is done, in percent.",
             at=t,
         )
     for (_, before), (t, percent) in pairwise(said):
         expect(
             percent >= before - ROUNDING,
-            expected="percent_complete that never falls",
+            expected="feedback.percent_complete never to fall",
             observed=f"{percent:.1f} after {before:.1f}",
-            help="Give each stage its own share of the 100 percent: the second begins where the first one ends.",
+            help="Give each stage its own range of the 100 percent, which begins where the previous range ends.",
             at=t,
         )
     if goal.status != SUCCEEDED:
@@ -194,9 +196,9 @@ def percentage_never_falls(goal: Goal) -> str | None:
     last_t, last = said[-1]
     expect(
         last >= MIN_LAST_PERCENT,
-        expected=f"percent_complete of more than {MIN_LAST_PERCENT:.0f} while the hand retreats",
+        expected=f"percent_complete of at least {MIN_LAST_PERCENT:.0f} in the last feedback",
         observed=f"{last:.1f}",
-        help="It is a percentage, 0 to 100, of the whole task.",
+        help="percent_complete is a percentage of the whole task, from 0 to 100, not a share from 0 to 1.",
         at=last_t,
     )
     return _how_it_ended(goal)

@@ -1,4 +1,4 @@
-"""What becomes of the cup when a goal is cancelled, gives way to another, or cannot be carried out."""
+"""How a goal ends safely when it is cancelled, preempted, or cannot be carried out."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from .holding import require_held_when
 from .placing import OPENED, TIMEOUT_SLACK, require_standing, require_withdrawn
 from .truth import carried, grip_at, grips, place_of, reports, taken_from
 
-FELL_OVER = 0.8
-MOVED = 0.05  # rad
-OPENED_BY = 0.01  # m
-BEGINNING, LATE = 0.8, 4.0  # s without a pose after which an object may be, and must be, unknown
+MIN_UPRIGHT = 0.8  # vertical component of the cup's axis, a unit vector; less means that it has fallen over
+MAX_JOINT_MOTION = 0.05  # rad
+MAX_OPENING_CHANGE = 0.01  # m
+EARLIEST_UNKNOWN, LATEST_UNKNOWN = 0.8, 4.0  # s after acceptance, between which UNKNOWN_OBJECT must come
 GRASP_TIMEOUT = 20.0  # s for a hand that does not arrive
-CLOSE = 0.2  # m
-BEFORE = 0.1  # s
-ALIKE = 0.03  # m by which two places may be taken for equally near
+NEAR_THE_CUP = 0.2  # m
+BEFORE_LOSS = 0.1  # s
+ALIKE = 0.03  # m; distances that differ by less count as equal
 
 
-# -- what cannot be carried out ---------------------------------------------------------------------------------------
+# -- goals that cannot be carried out ---------------------------------------------------------------------------------
 
 
 def knows_what_is_unknown(goal: Goal) -> str | None:
-    """An object whose pose nobody publishes ends the goal with UNKNOWN_OBJECT after 1 s."""
+    """If nothing is published on objects/<object_id>/pose for 1 s, the goal ends with UNKNOWN_OBJECT."""
     name = goal.request.object_id
     if not accepted(goal) or goal.request.object_id == life.CUP:
         return None
@@ -36,25 +36,27 @@ def knows_what_is_unknown(goal: Goal) -> str | None:
     result = require_aborted(
         goal,
         "UNKNOWN_OBJECT",
-        because=f"nothing comes on objects/{name}/pose" if is_a_name else f"there is no object {name!r}",
+        because=f"nothing is published on objects/{name}/pose"
+        if is_a_name
+        else f"there is no object {name!r}",
         help="Wait at most 1 s for the first message on objects/<object_id>/pose, then abort."
         if is_a_name
-        else "create_subscription() raises InvalidTopicNameException for a name with a space, or an empty one: catch "
-        "it, and abort with UNKNOWN_OBJECT.",
+        else "create_subscription() raises InvalidTopicNameException for an invalid name, for example with a space in "
+        "it: catch it, and abort with UNKNOWN_OBJECT.",
     )
     took = result.t - goal.accepted_at
     expect(
-        (BEGINNING if is_a_name else 0.0) <= took <= LATE,
+        (EARLIEST_UNKNOWN if is_a_name else 0.0) <= took <= LATEST_UNKNOWN,
         expected="the goal ABORTED after 1 s without a message",
-        observed=f"it was after {took:.1f} s",
-        help="Give the topic 1 s: its publisher sends 10 messages a second, but has to be found first.",
+        observed=f"ABORTED after {took:.1f} s",
+        help="Wait 1 s for a message: poses are published 10 times a second, but discovering the publisher takes time.",
         at=result.t,
     )
     return "unknown" if is_a_name else "no name"
 
 
 def refuses_what_is_out_of_reach(goal: Goal) -> str | None:
-    """A cup or a place out of reach ends it with UNREACHABLE, before arm or hand move."""
+    """If the cup or the place is out of reach, the goal ends with UNREACHABLE before arm or hand move."""
     if not life.ends_by_itself(goal) or left_alone(goal):
         return None
     if not life.is_for_the_cup(goal) or not life.is_far(goal):
@@ -63,17 +65,17 @@ def refuses_what_is_out_of_reach(goal: Goal) -> str | None:
         goal,
         "UNREACHABLE",
         because="the cup or its place is beyond the arm's reach",
-        help="Ask compute_arm_ik for the grasp and for the place before you move; abort unless error_code is SUCCESS "
-        "for both.",
+        help="Before you move anything, call compute_arm_ik for the grasp and for the place; abort unless error_code "
+        "is SUCCESS in both responses.",
     )
     _require_nothing_moved(goal)
     return "out of reach"
 
 
 def _require_nothing_moved(goal: Goal) -> None:
-    """Require that arm, waist and fingers stayed where they were from the goal's arrival to the end of the scenario.
+    """Require that arm, waist and fingers did not move from when the goal was sent to the end of the scenario.
 
-    Until the result would not do: an arm that was told to move takes longer to begin than a server to abort.
+    Checking only until the result would miss motion, as an arm starts to move later than a server can abort.
     """
     run, start, end = goal.run, goal.sent.t, goal.run.end
     joints = reports(run, ev.JointsTruth, start, end)
@@ -83,29 +85,29 @@ def _require_nothing_moved(goal: Goal) -> None:
             key=lambda pair: pair[1],
         )
         expect(
-            moved <= MOVED,
-            expected="an arm that stays where it is until the goal is known to be possible",
+            moved <= MAX_JOINT_MOTION,
+            expected="an arm that does not move, as the goal is out of reach",
             observed=f"{joint} moved by {moved:.2f} rad",
-            help="Ask compute_arm_ik for the grasp and for the place first; publish on joint_trajectory afterwards.",
+            help="Call compute_arm_ik for the grasp and for the place first; publish on joint_trajectory afterwards.",
             at=report.t,
         )
     seen = grips(run, start, end)
     worst = max(seen, key=lambda grip: abs(grip.opening - seen[0].opening))
     moved = abs(worst.opening - seen[0].opening)
     expect(
-        moved <= OPENED_BY,
-        expected="a hand that stays as it is until the goal is known to be possible",
+        moved <= MAX_OPENING_CHANGE,
+        expected="a hand that neither opens nor closes, as the goal is out of reach",
         observed=f"it opened or closed by {moved:.3f} m",
         help="Open the hand after compute_arm_ik has found both places, not before.",
         at=worst.t,
     )
 
 
-# -- what goes wrong on the way ---------------------------------------------------------------------------------------
+# -- goals that fail on the way ---------------------------------------------------------------------------------------
 
 
 def notices_what_it_does_not_hold(goal: Goal) -> str | None:
-    """When the fingers close on nothing the goal ends with GRASP_FAILED."""
+    """When the fingers close on nothing, the goal ends with GRASP_FAILED."""
     taken = _robbed_of_its_grasp(goal)
     if taken is None:
         return None
@@ -113,17 +115,17 @@ def notices_what_it_does_not_hold(goal: Goal) -> str | None:
         goal,
         "GRASP_FAILED",
         because="nothing was between the fingers",
-        help="The fingers closed on nothing, and the goal went on. After closing, r_gripper/wrench has to say at least "
-        "1 N.",
+        help="The fingers closed on nothing, but the goal went on. After closing, require force.y of at least 1 N in "
+        "r_gripper/wrench.",
     )
     _require_later(
-        result, taken, "the cup was taken away", "Close the hand, wait, and look at the force then."
+        result, taken, "the cup was taken away", "Close the hand, wait, and only then compare the force."
     )
     return "taken away"
 
 
 def withdraws_what_is_empty(goal: Goal) -> str | None:
-    """After a failed grasp the hand is open and withdrawn."""
+    """After GRASP_FAILED the hand is open and withdrawn."""
     if _robbed_of_its_grasp(goal) is None or goal.result is None:
         return None
     require_withdrawn(goal, goal.result.t, taken_from(goal), opened=OPENED)
@@ -131,7 +133,7 @@ def withdraws_what_is_empty(goal: Goal) -> str | None:
 
 
 def notices_what_it_loses(goal: Goal) -> str | None:
-    """When the cup is lost while it is lifted or moved the goal ends with DROPPED."""
+    """When the cup is lost while it is lifted or moved, the goal ends with DROPPED."""
     taken = life.robbed_at(goal) if life.ends_by_itself(goal) and not left_alone(goal) else None
     if taken is None or not carried(goal, taken):
         return None
@@ -139,59 +141,60 @@ def notices_what_it_loses(goal: Goal) -> str | None:
     result = require_aborted(
         goal,
         "DROPPED",
-        because="the force vanished on the way",
-        help="The cup was gone and the goal went on. While you hold it, look at r_gripper/wrench in every round.",
+        because="the cup was taken out of the hand",
+        help="The hand had lost the cup, but the goal went on. While you hold the cup, check force.y of "
+        "r_gripper/wrench in every round.",
     )
     _require_later(
         result, taken, "the cup was lost", "Compare the measured force with 1 N, not with grasp_force."
     )
-    return f"nearer to {life.nearer_place(goal, taken - BEFORE, 0.0)}"
+    return f"nearer to {life.nearer_place(goal, taken - BEFORE_LOSS, 0.0)}"
 
 
 def gives_up_in_time(goal: Goal) -> str | None:
-    """A hand that does not get to the cup ends the goal with GRASP_FAILED within 20 s."""
+    """If the hand cannot reach the cup, the goal ends with GRASP_FAILED within 20 s."""
     held = life.commanded(goal, "hold_joint") if life.ends_by_itself(goal) else None
     if held is None:
         return None
     result = require_aborted(
         goal,
         "GRASP_FAILED",
-        because="the elbow was held, and the hand could not get to the cup",
-        help="Something waits without a limit for the hand to arrive. Give each stage a time in which it must be over.",
+        because="the elbow was blocked, so the hand could not reach the cup",
+        help="A loop waits for the hand without a timeout. Give each stage a timeout.",
     )
     expect(
         result.t - held <= GRASP_TIMEOUT + TIMEOUT_SLACK,
         expected=f"the goal ABORTED within {GRASP_TIMEOUT:.0f} s",
-        observed=f"it was after {result.t - held:.0f} s",
-        help="Give each stage a few seconds more than its trajectory takes.",
+        observed=f"ABORTED after {result.t - held:.0f} s",
+        help="Set the timeout of each stage to the duration of its trajectory plus a few seconds.",
         at=result.t,
     )
     return "blocked"
 
 
 def tells_a_fall(goal: Goal) -> str | None:
-    """When the robot falls the goal is ABORTED with FELL."""
+    """When the robot falls, the goal is ABORTED with FELL."""
     if not life.ends_by_itself(goal) or life.commanded(goal, "push") is None:
         return None
     require_fell_told(goal, require_knocked_over(goal.run))
     return "pushed"
 
 
-# -- what ends it before it is done -----------------------------------------------------------------------------------
+# -- goals that are cancelled or preempted ----------------------------------------------------------------------------
 
 
 def leaves_the_cup(goal: Goal) -> str | None:
-    """A cancel before the grasp ends CANCELED, with the hand withdrawn and the object where it was."""
+    """A cancel before the hand grasps the cup ends CANCELED, with the hand withdrawn and the cup where it was."""
     asked = life.canceled_at(goal)
     if asked is None or not life.is_possible(goal) or carried(goal, asked):
         return None
     goal.require_canceled(goal.requests_to_cancel[0])
     grip = grip_at(goal.run, asked)
     expect(
-        grip.distance <= CLOSE,
-        expected="the hand near the cup by then",
-        observed=f"it is {grip.distance:.2f} m away",
-        help="Bring the hand to the cup: approach it as soon as the goal executes.",
+        grip.distance <= NEAR_THE_CUP,
+        expected="the hand near the cup when the cancel comes",
+        observed=f"the hand was {grip.distance:.2f} m away",
+        help="Move the hand to the cup as soon as the goal executes.",
         at=asked,
     )
     assert goal.result
@@ -199,13 +202,13 @@ def leaves_the_cup(goal: Goal) -> str | None:
         goal,
         taken_from(goal),
         "where it stood",
-        "Nothing is held yet: open the hand and draw it straight back, away from the cup, then call canceled().",
+        "The hand holds nothing yet: open it, move it straight back, away from the cup, then call canceled().",
     )
     return "closing" if grip.force > 0.0 else "approaching"
 
 
 def puts_away(goal: Goal) -> str | None:
-    """A cancel while it holds the object puts it down where it was taken or shall stand, whichever is nearer."""
+    """After a cancel while it holds the cup, it puts it down where it stood or at place_pose, whichever is nearer."""
     asked = life.canceled_at(goal)
     if asked is None or not life.is_possible(goal) or not life.holds_at(goal, asked):
         return None
@@ -216,47 +219,49 @@ def puts_away(goal: Goal) -> str | None:
         goal,
         taken_from(goal) if nearer == "where it stood" else place_of(goal),
         f"{nearer}, which is nearer",
-        "When the cancel comes, compare how far the cup is from where it stood and from place_pose, in x and y; "
-        "carry it to the nearer one, put it down, open, withdraw, then call canceled().",
+        "When the cancel comes, compare the cup's distances in x and y to where it stood and to place_pose. Carry it "
+        "to the nearer one, put it down, open the hand, withdraw it, then call canceled().",
     )
     return f"to {nearer}"
 
 
 def gives_the_hand_to_one(goal: Goal) -> str | None:
-    """Of two goals one has the hand: the second is rejected, or the first ends safely with PREEMPTED."""
+    """Of two goals only one uses the hand: the second is rejected, or the first ends safely with PREEMPTED."""
     later = [other for other in life.rivals(goal) if other.sent.t > goal.sent.t]
     if not later or not accepted(goal) or not life.is_possible(goal):
         return None
     require_held_when(goal, later[0].sent.t)
     newer = successors(goal)
     if not newer:
-        later[0].require_rejected(because="the hand is busy", help="Reject it in goal_callback.")
+        later[0].require_rejected(
+            because="the hand is in use by another goal", help="Reject the second goal in goal_callback."
+        )
         return "rejected"
     end = goal.require_result(
         ABORTED,
-        help="Two goals had one hand. Reject the second one in goal_callback, or end the first one with PREEMPTED.",
+        help="Two goals used one hand. Reject the second goal in goal_callback, or end the first one with PREEMPTED.",
     )
-    require_error_code(goal, "PREEMPTED", because="a later goal has the hand")
+    require_error_code(goal, "PREEMPTED", because="a later goal uses the hand now")
     goal.require_reason()
     _require_later(
         end,
         newer[0].sent.t,
-        "the second one came",
-        "Abort with PREEMPTED only when another goal has been accepted.",
+        "the second goal was sent",
+        "Abort with PREEMPTED only after another goal has been accepted.",
     )
     tilted = min(reports(goal.run, ev.ObjectTruth, newer[0].sent.t, goal.run.end), key=lambda cup: cup.up)
     expect(
-        tilted.up >= FELL_OVER,
-        expected="a cup that stays upright while one goal gives way to another",
+        tilted.up >= MIN_UPRIGHT,
+        expected="a cup that stays upright while the second goal preempts the first",
         observed="it fell over",
-        help="Put down what is held, open, withdraw, and only then let the other goal begin.",
+        help="In the first goal put down the cup, open the hand and withdraw it; only then start the second goal.",
         at=tilted.t,
     )
-    return "gave way"
+    return "preempted"
 
 
 def _robbed_of_its_grasp(goal: Goal) -> float | None:
-    """Return when (s) the cup was taken from a goal that had not lifted it yet."""
+    """Return when (s) the scenario took the cup away, if the hand had not lifted it yet."""
     taken = life.robbed_at(goal) if life.ends_by_itself(goal) and not left_alone(goal) else None
     return None if taken is None or carried(goal, taken) else taken
 
@@ -265,7 +270,7 @@ def _require_later(result: ev.ResultReceived, than: float, event: str, help: str
     expect(
         result.t >= than,
         expected=f"the goal to go on until {event}",
-        observed=f"it ended {than - result.t:.1f} s before",
+        observed=f"it ended {than - result.t:.1f} s before that",
         help=help,
         at=result.t,
     )

@@ -1,4 +1,4 @@
-"""What is done to a server that picks and places. No expected answers here: this runs in the arena."""
+"""The steps of scenarios for a pick_and_place server. No expected responses here: this runs in the arena."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from humanoid_interfaces.action import PickAndPlace
 Place = Sequence[float]  # x, y m in odom; the height is that of a cup on the table
 Condition = Callable[[ev.HandTruth, ev.ObjectTruth], bool]
 
-ROBOT_TOPICS_TIME = 1.0  # s for the robot's topics to arrive, and for a moved cup to stand
+ROBOT_TOPICS_TIME = 1.0  # s for messages of the robot to arrive, and for a moved cup to come to rest
 RESULT_TIMEOUT = 60.0  # s for a goal
-END_TIMEOUT = 15.0  # s for a goal that something has ended, and for any when another was waited for in vain
-HAND_TIMEOUT = 40.0  # s until the hand has come somewhere
+END_TIMEOUT = 15.0  # s for a goal that must end soon, and for every goal after a timeout in the scenario
+HAND_TIMEOUT = 40.0  # s for the hand to fulfil a condition
 ON_THE_TABLE = 0.755  # m, the height of the cup's centre
 ASIDE = (0.50, 0.30, ON_THE_TABLE)  # m, out of the right hand's way
-OPEN = 0.08  # m between the pads; narrower is closing around a cup of 6 cm
-TOUCHED = 0.5  # N
+OPEN = 0.08  # m between the pads; a narrower hand is closing on the 6 cm wide cup
+TOUCH_FORCE = 0.5  # N
 JOINTS = [
     "waist_yaw",
     *(f"r_{part}" for part in ("shoulder_pitch", "shoulder_roll", "shoulder_yaw", "elbow")),
@@ -31,12 +31,12 @@ JOINTS = [
 
 
 def in_order(stage: Stage, steps: Steps, watched: Sequence[str] = ("hand",)) -> None:
-    """Send goals, wait for the hand, ask to cancel, take the cup away: in the order of the steps.
+    """Send goals, wait for the hand, cancel, take the cup away, in the order of the steps.
 
     Args:
         stage: the arena.
-        steps: each a verb of `_Table` with its arguments.
-        watched: what to record of the robot: its "hand" and the cup, the "joints" of its arm.
+        steps: each a verb from `_Table.vocabulary` with its arguments.
+        watched: what to record: "hand" for the hand and the cup, "joints" for the joints of the arm.
     """
     table = _Table(stage)
     stage.open()
@@ -51,14 +51,14 @@ def in_order(stage: Stage, steps: Steps, watched: Sequence[str] = ("hand",)) -> 
 
 
 class _Table:
-    """Sends goals, by name, and does things to them, to the robot, and to the cup."""
+    """Sends named goals, cancels them, and disturbs the robot and the cup."""
 
     def __init__(self, stage: Stage) -> None:
         self._stage = stage
         self._action = stage.action("pick_and_place", PickAndPlace)
         self._goals: dict[str, Goal] = {}
         self._places: dict[str, Place] = {}
-        self._waited_in_vain = False
+        self._timed_out = False
 
     def vocabulary(self) -> dict[str, Callable[..., object]]:
         robot = self._stage.robot
@@ -80,7 +80,7 @@ class _Table:
     def go(
         self, name: str, place: Place, force: float = 10.0, thing: str = "cup", frame: str = "odom"
     ) -> None:
-        """Send a goal, with a force in N, and wait for its answer."""
+        """Send a goal, with a force in N, and wait until it is accepted or rejected."""
         pose = PoseStamped()
         pose.header.frame_id = frame
         pose.pose.position.x, pose.pose.position.y = place
@@ -90,37 +90,35 @@ class _Table:
         self._goals[name] = self._action.send_and_wait(goal, as_=name)
 
     def arrive(self, name: str) -> None:
-        """Wait for the end of a goal: so long as it may take, unless another has kept the scenario waiting in vain."""
+        """Wait for the result of a goal; only briefly if the scenario has had a timeout before."""
         goal = self._goals[name]
-        if goal.accepted and not goal.wait_for_result(
-            END_TIMEOUT if self._waited_in_vain else RESULT_TIMEOUT
-        ):
-            self._waited_in_vain = True
+        if goal.accepted and not goal.wait_for_result(END_TIMEOUT if self._timed_out else RESULT_TIMEOUT):
+            self._timed_out = True
 
     def wait_until(self, what: str, name: str = "", way: float = 0.0) -> bool:
-        """Wait until the hand has come so far; 'carried': with the cup, so much (0..1) of a goal's way."""
+        """Wait until a condition holds; for 'carried', until the cup has gone a share (0 to 1) of a goal's way."""
         condition = self._carried(name, way) if what == "carried" else _CONDITIONS[what]
         has_come = self._stage.robot.wait_for_hand(
-            condition, END_TIMEOUT if self._waited_in_vain else HAND_TIMEOUT
+            condition, END_TIMEOUT if self._timed_out else HAND_TIMEOUT
         )
-        self._waited_in_vain = self._waited_in_vain or not has_come
+        self._timed_out = self._timed_out or not has_come
         return True
 
     def take_when(self, what: str, name: str = "", way: float = 0.0) -> bool:
-        """Take the cup away when the hand has come so far; return whether it has."""
+        """Take the cup away when a condition holds (see `wait_until`); return whether it did."""
         self.wait_until(what, name, way)
-        if not self._waited_in_vain:
+        if not self._timed_out:
             self._stage.robot.move_object("cup", ASIDE)
-        return not self._waited_in_vain
+        return not self._timed_out
 
     def put_cup(self, x: float, y: float) -> None:
-        """Put the cup somewhere (m in odom) on the table."""
+        """Put the cup at a place (m in odom) on the table."""
         self._stage.robot.move_object("cup", (x, y, ON_THE_TABLE))
         self._stage.robot.wait_for_commands()
         self._stage.wait(ROBOT_TOPICS_TIME)
 
     def _carried(self, name: str, way: float) -> Condition:
-        """Return when the cup has been lifted, and carried so much of the way that there is from here."""
+        """Return the condition that the cup is lifted and has gone a share of its way to the goal's place."""
         place = self._places[name]
         lengths: list[float] = []
 
@@ -139,7 +137,7 @@ def _is_lifted(hand: ev.HandTruth, cup: ev.ObjectTruth) -> bool:
 _CONDITIONS: dict[str, Condition] = {
     "near": lambda hand, cup: math.dist(hand.position, cup.position) < 0.06,
     "closing": lambda hand, cup: math.dist(hand.position, cup.position) < 0.05 and hand.opening < OPEN,
-    "touching": lambda hand, cup: min(hand.forces) > TOUCHED,
+    "touching": lambda hand, cup: min(hand.forces) > TOUCH_FORCE,
     "lifted": _is_lifted,
     "above the table": lambda hand, cup: hand.position[2] > ON_THE_TABLE - 0.03,
 }

@@ -1,4 +1,4 @@
-"""Where hand and cup were, as the simulator has it; the scenario has asked for it."""
+"""Where hand and cup were, from the simulator's reports that the scenario requested."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from geometry_msgs.msg import Point
 
 from autograder.authoring import Goal, RobotRecord, ev
 
-LIFTED = 0.02  # m above where it stood: the table carries nothing of it
+LIFTED = 0.02  # m above where the cup stood; it no longer touches the table
 
 E = TypeVar("E", ev.HandTruth, ev.ObjectTruth, ev.JointsTruth)
 
@@ -23,7 +23,7 @@ class Grip(NamedTuple):
         t: s.
         hand, cup: (x, y, z) m in odom.
         force: N, of the pad that presses less.
-        strongest: N, of the one that presses more.
+        strongest: N, of the pad that presses more.
         opening: m between the pads.
     """
 
@@ -41,12 +41,12 @@ class Grip(NamedTuple):
 
 
 def reports(run: RobotRecord, kind: type[E], start: float, end: float) -> Sequence[E]:
-    """Return the simulator's reports of one kind from `start` to `end` (s); there must be some from end to end."""
+    """Return the simulator's reports of one kind from `start` to `end` (s); they must cover the whole time."""
     return run.reported(kind, start, end, of="hand and cup")
 
 
 def cup_at(run: RobotRecord, t: float) -> ev.ObjectTruth:
-    """Return the cup at a time (s): the last report not later, or the first there is."""
+    """Return the cup at a time (s): the last report up to then, or the first of all."""
     return reports(run, ev.ObjectTruth, t, t)[-1]
 
 
@@ -84,7 +84,7 @@ def taken_from(goal: Goal) -> Sequence[float]:
 
 
 def place_of(goal: Goal) -> tuple[float, float, float]:
-    """Return where the cup shall stand, m in odom."""
+    """Return where the goal wants the cup, m in odom."""
     return as_tuple(goal.request.place_pose.pose.position)
 
 

@@ -1,1 +1,1 @@
-"""Chapter 3: a client that enables the motors and asks for the status, whatever the servers do."""
+"""Chapter 3: a client that enables the motors and requests the status, whatever the servers do."""

@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ REFUSED: Reply = [False, "the emergency stop is pressed", 0.0]
 
 
 def replies(enable: list[Reply | None] | None, status: list[Reply | None] | None) -> dict[str, object]:
-    """Return what the servers do: the replies of each, one after the other; None: silence, or no server at all."""
+    """Return the servers' scripts: the replies of each in order, None for no reply; a script of None: no server."""
     scripts = {"enable": enable, "status": status}
     return {name: {"replies": each} for name, each in scripts.items() if each is not None}
 
@@ -35,7 +35,7 @@ enables_then_asks = check_of(model.enables_then_asks, points=2, on=GOOD)
 
 prints_the_status = check_of(
     [model.ends_as_it_went, model.prints_the_status, model.keeps_one_deadline],
-    title="It prints “Robot status: ” with the message of the answer, and ends with status 0",
+    title="It prints “Robot status: ” with the message of the response, and exits with status 0",
     points=2,
     on=GOOD,
     needs=enables_then_asks,
@@ -43,7 +43,7 @@ prints_the_status = check_of(
 
 gives_up_without_servers = check_of(
     [*FAILS, model.looks_for_two_seconds],
-    title="Without any server it looks for one for 2 s, ends with status 1 within 10 s, and says so on stderr",
+    title="Without any server it waits 2 s for one, exits with status 1 within 10 s, and says so on stderr",
     points=2,
     on=NOBODY,
     needs=enables_then_asks,
@@ -52,7 +52,7 @@ gives_up_without_servers = check_of(
 
 asks_once_more = check_of(
     [model.repeats_enable_once, model.ends_as_it_went, model.says_why_it_fails, model.switches_on],
-    title="Without an answer it asks once more after 2 s, then gives up with status 1",
+    title="Without a response it retries once after 2 s, then exits with status 1",
     points=2,
     on=SILENT_ENABLE,
     needs=enables_then_asks,
@@ -66,15 +66,14 @@ makes_use_of_the_second_answer = check_of(
         model.tells_one_status,
         model.enables_then_asks,
     ],
-    title="When the first request of a service is lost, or answered too late, the second one counts, and an empty "
-    "answer is one, too",
+    title="If the response to the first request is missing or late, it uses the second; an empty message also counts",
     on=FIRST_LOST,
     needs=enables_then_asks,
 )
 
 keeps_one_deadline = check_of(
     [model.repeats_enable_once, *FAILS],
-    title="It gives up within 10 s in all, also when servers come late and answer late; a refusal ends it, too",
+    title="It gives up within 10 s in total, also if servers appear and respond late, and at once after success false",
     on=[LATE_AND_SILENT, REFUSING_ONCE],
     needs=[gives_up_without_servers, asks_once_more],
     see="03_clients_that_survive#fix-module",

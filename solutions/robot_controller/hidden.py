@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks."""
+"""The hidden checks, which only the instructor's grading runs."""
 
 from __future__ import annotations
 
@@ -30,20 +30,20 @@ def _enabled(random: Random) -> list[Any]:
 
 
 def _any_status(random: Random) -> Script:
-    """Answer in time, or to the second request, with any status: it is an answer, whatever its success is."""
+    """Draw servers that respond in time or to the second request, with any status and either value of success."""
     yes: Any = _enabled(random)
     status = [random.choice([True, False]), f"  {_message(random)}", _delay(random)]
     return replies(random.choice([[yes], [None, yes]]), [status])
 
 
 def _refusal(random: Random) -> Script:
-    """Refuse without a reason: why the program ends is for the program to say."""
+    """Draw an enable_motors that responds with success false and an empty message."""
     no: Any = [False, "", _delay(random)]
     return replies(random.choice([[no], [no, ENABLED], [None, no]]), [ON])
 
 
 def _any_servers(random: Random) -> dict[str, Script]:
-    """Draw what each service does: in time, late, lost, silent, gone, back, missing, refusing, two of a name."""
+    """Draw each service: responses in time, late or missing; servers that die, come back, or share a name."""
     yes = _enabled(random)
     message = random.choice([_message(random), "Robot status: twice", "x" * 200, "  two spaces  in  it"])
     told = [random.choice([True, False]), message, _delay(random)]
@@ -60,7 +60,7 @@ def _any_servers(random: Random) -> dict[str, Script]:
 
 
 def _status(**script: Any) -> Any:
-    """Return the scenario in which enable_motors answers at once, and get_status does as the script says."""
+    """Return the scenario in which enable_motors responds at once, and get_status follows the script."""
     return program("servers", replies([ENABLED], None) | {"status": script})
 
 
@@ -83,7 +83,7 @@ ANY_SERVERS = program("servers", _any_servers)
 
 prints_any_status = check_of(
     [model.ends_as_it_went, model.prints_the_status],
-    title="Whatever the status says, it is printed as it came, also one with success: false",
+    title="It prints every status unchanged, also one with success false",
     on=ANY_STATUS,
     needs=checks.prints_the_status,
     see="03_clients_that_survive#fix-file",
@@ -91,14 +91,14 @@ prints_any_status = check_of(
 
 works_in_any_namespace = check_of(
     [model.asks_here, *SUCCEEDS],
-    title="Started in another namespace, it asks the robot there",
+    title="Started in another namespace, it calls the robot's services there",
     on=OTHER_NAMESPACE,
     needs=checks.enables_then_asks,
 )
 
 needs_both_services = check_of(
     [*FAILS, model.looks_for_two_seconds],
-    title="A get_status that is missing, or of another type, ends it with status 1 after 2 s",
+    title="If get_status is missing or has another type, it exits with status 1 after 2 s",
     on=[ONE_OF_TWO, ANOTHER_TYPE],
     needs=checks.gives_up_without_servers,
     see="03_clients_that_survive#fix-run",
@@ -106,7 +106,7 @@ needs_both_services = check_of(
 
 gives_up_on_a_silent_status = check_of(
     [*ASKS, model.repeats_status_once, *FAILS],
-    title="get_status is also asked twice and then given up, whatever enable_motors needed",
+    title="It also retries get_status once, then gives up, however long enable_motors took",
     on=SILENT_STATUS,
     needs=checks.asks_once_more,
     see="03_clients_that_survive#fix-module",
@@ -114,7 +114,7 @@ gives_up_on_a_silent_status = check_of(
 
 waits_for_slow_answers = check_of(
     [*ASKS, model.repeats_status_once, *SUCCEEDS],
-    title="Answers that take 1 s are waited for",
+    title="It waits for responses that take 1 s",
     on=SLOW,
     needs=checks.enables_then_asks,
     see=WHY,
@@ -122,14 +122,14 @@ waits_for_slow_answers = check_of(
 
 is_not_confused_by_a_late_answer = check_of(
     [model.repeats_status_once, *SUCCEEDS],
-    title="An answer that comes after its time, while another is waited for, does no harm",
+    title="A late response that comes while it waits for the second one does no harm",
     on=LATE,
     needs=checks.makes_use_of_the_second_answer,
 )
 
 survives_a_dying_server = check_of(
     FAILS,
-    title="A server that dies in the middle of a request ends it with status 1",
+    title="If a server dies during a request, it exits with status 1",
     on=DYING,
     needs=checks.asks_once_more,
     see="03_clients_that_survive#kill-why",
@@ -137,14 +137,14 @@ survives_a_dying_server = check_of(
 
 finds_a_restarted_server = check_of(
     model.holds_whatever_servers_do,
-    title="A server that dies and comes back is asked again; whatever servers do, every clause holds",
+    title="It retries when a server dies and comes back; every clause holds, whatever the servers do",
     on=[RESTARTING, ANY_SERVERS],
     needs=checks.makes_use_of_the_second_answer,
 )
 
 copes_with_two_servers = check_of(
     [*ASKS, *SUCCEEDS],
-    title="Two servers of one name give one status",
+    title="With two servers of the same name it prints one status",
     on=TWO,
     needs=checks.enables_then_asks,
     see="03b_clients_in_bad_company#two-why",
@@ -152,7 +152,7 @@ copes_with_two_servers = check_of(
 
 reports_a_refusal = check_of(
     [model.switches_on, model.repeats_enable_once, *FAILS],
-    title="When enable_motors answers success: false, it asks no more, and ends with status 1",
+    title="After success false of enable_motors it sends no more requests, and exits with status 1",
     on=REFUSING,
     needs=checks.enables_then_asks,
 )

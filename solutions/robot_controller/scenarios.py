@@ -1,4 +1,4 @@
-"""Servers for a robot controller to deal with. No expected answers here: this runs in the arena."""
+"""Scripted servers for a robot controller. No expected responses here: this runs in the arena."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from std_srvs.srv import SetBool, Trigger
 from autograder.arena.client_stage import ClientStage
 from autograder.arena.scripted_service import SILENCE, Reply, ScriptedService
 
-END_OF_A_CALL = 5.0  # s from the first request, for a second one
+RETRY_TIMEOUT = 5.0  # s from the first request to a second one
 TICK = 0.03  # s
 RUN_TIMEOUT = 25.0  # s
 TYPES = {"SetBool": SetBool, "Trigger": Trigger}
 
-# What is known of one service: None, or some of
-#   replies: each None for silence, or [success, message, s until it is sent]; the last one is repeated
-#   appears: s after the program's node; servers: how many; type: another one
-#   dies_after: requests; returns: s after its death, with the replies `then`
+# The script of one service, or None for no server. Keys, all but the first optional:
+#   replies: for each request [success, message, s until it is sent], or None for no reply; the last one is repeated
+#   appears: s after the program's node; servers: their number; type: another type
+#   dies_after: number of requests; returns: s after its death, with the replies `then`
 Script = Mapping[str, Any]
 
 
 class Play:
-    """The servers of one service, which come and go as a script says."""
+    """The servers of one service, which appear and die according to a script."""
 
     def __init__(self, stage: ClientStage, name: str, type_name: str, script: Script) -> None:
         self._stage, self._name, self._script = stage, name, script
@@ -61,7 +61,7 @@ class Play:
 
 
 def servers(stage: ClientStage, enable: Script | None = None, status: Script | None = None) -> None:
-    """Offer what the scripts say, run the program, and let servers come and go until it ends."""
+    """Offer the services of the scripts, and run the program until it exits."""
     wanted = (("enable_motors", "SetBool", enable), ("get_status", "Trigger", status))
     plays = [Play(stage, name, type_name, script) for name, type_name, script in wanted if script is not None]
     stage.start_program()
@@ -74,10 +74,10 @@ def servers(stage: ClientStage, enable: Script | None = None, status: Script | N
 
 
 def late_and_silent(stage: ClientStage, appears: float, answers: float) -> None:
-    """Each server appears `appears` s after the client could look for it; enable_motors is slow, get_status silent.
+    """Each server appears `appears` s after the client begins to wait for it; get_status never responds.
 
-    enable_motors answers the second request, `answers` s after it. A client that waits for both servers before it asks
-    gets get_status that long after enable_motors, any other that long after the answer of enable_motors.
+    enable_motors responds only to the second request, after `answers` s. For a client that waits for both servers
+    first, get_status appears that long after enable_motors; for others, that long after the response of enable_motors.
     """
     stage.start_program()
     stage.wait(appears)
@@ -87,7 +87,7 @@ def late_and_silent(stage: ClientStage, appears: float, answers: float) -> None:
         SILENCE,
         Reply(SetBool.Response(success=True, message="the motors are on"), answers),
     )
-    if stage.wait_for_requests(enable, 1, appears) and stage.wait_for_requests(enable, 2, END_OF_A_CALL):
+    if stage.wait_for_requests(enable, 1, appears) and stage.wait_for_requests(enable, 2, RETRY_TIMEOUT):
         stage.wait(answers + appears)
     stage.offer_service("get_status", Trigger, SILENCE)
     stage.wait_for_end()

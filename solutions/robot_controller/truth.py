@@ -1,4 +1,4 @@
-"""What the servers did in a run, and how the program may end by that."""
+"""What the servers did in a run, and how the program may therefore exit."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from autograder.authoring import Request, Transcript, ev, started_at
 
 ENABLE, STATUS = "enable_motors", "get_status"
 TYPES = {ENABLE: "std_srvs/srv/SetBool", STATUS: "std_srvs/srv/Trigger"}
-SCRIPTS = {ENABLE: "enable", STATUS: "status"}  # the inputs of a scenario that say what a service does
-WHOLE_DEADLINE = 10.0  # s for everything
-ANSWER_TIMEOUT = 2.0  # s for an answer, or for a server to appear
-ANSWER_MARGIN = 0.4  # s by which an answer has to be early, or late, to count as such
-SURELY_FOUND = 1.7  # s after the node in which a server has appeared in time
-REFUSED = "enable_motors answered success: false"
-SAME = 0.3  # s within which two servers of one name get one request
+SCRIPTS = {ENABLE: "enable", STATUS: "status"}  # the inputs of a scenario with a service's script
+WHOLE_DEADLINE = 10.0  # s for the whole program
+ANSWER_TIMEOUT = 2.0  # s for a response, or for a server to appear
+ANSWER_MARGIN = 0.4  # s; a response nearer than this to its timeout counts neither as in time nor as late
+SURELY_FOUND = 1.7  # s after the node's start; a server that appears until then must be found
+REFUSED = "enable_motors responded with success false"
+SAME_REQUEST_TIME = 0.3  # s, within which two servers of one name receive the same request
 
 
 @dataclass(frozen=True)
 class Asked:
-    """One request to a service, as each of its servers got it, and the replies."""
+    """One request to a service, as each of its servers received it, and the replies."""
 
     requests: list[Request]
 
@@ -36,27 +36,31 @@ class Asked:
 
     @property
     def is_answered(self) -> bool:
-        """Whether an answer certainly came in time."""
+        """Whether a response certainly came in time."""
         return any(reply.t <= self.t + ANSWER_TIMEOUT - ANSWER_MARGIN for reply in self.replies)
 
 
 @dataclass(frozen=True)
 class Ends:
-    """How a run may end: whether with success, with failure, or either way."""
+    """How a run may end: with success, with failure, or either."""
 
     may_succeed: bool  # with exit status 0
     may_fail: bool  # with exit status 1
-    why: str  # it fails, in words
-    messages: tuple[str, ...] = ()  # of get_status, any of which may be printed
+    why: str  # the reason for a failure, in words
+    messages: tuple[str, ...] = ()  # the messages of get_status, any of which may be printed
 
 
 def asked(run: Transcript, service: str) -> list[Asked]:
-    """Return the requests to a service; what reaches two servers of one name at once is one."""
+    """Return the requests to a service; a request that two servers of one name receive counts once."""
     found: list[Asked] = []
     for request in run.requests(service):
         last = found[-1] if found else None
         servers = {each.received.server for each in last.requests} if last else set()
-        if last and request.received.t - last.t < SAME and request.received.server not in servers:
+        if (
+            last
+            and request.received.t - last.t < SAME_REQUEST_TIME
+            and request.received.server not in servers
+        ):
             last.requests.append(request)
         else:
             found.append(Asked([request]))
@@ -76,17 +80,17 @@ def died(run: Transcript, service: str, by: float) -> list[ev.ServiceWithdrawn]:
 
 
 def is_gone(run: Transcript, service: str, t: float) -> bool:
-    """Return whether the last server of a service had died by a time (s), and none was to come back by then."""
+    """Return whether the last server of a service had died by a time (s), and none came back until then."""
     gone = died(run, service, t)
     there = {each.server for each in run.all(ev.ServiceOffered) if each.service == service and each.t <= t}
     returns = (run.params.get(SCRIPTS[service]) or {}).get("returns")
     if gone and returns is not None and gone[-1].t + returns <= t:
-        return False  # whoever waits sees it
+        return False  # a client that waits finds it
     return bool(gone) and not there - {each.server for each in gone}
 
 
 def is_missing(run: Transcript, service: str) -> bool | None:
-    """Return whether a service counts as missing; None: it may be found, or not."""
+    """Return whether a service counts as missing; None if that is uncertain."""
     servers = offered(run, service)
     if not servers:
         return True
@@ -97,19 +101,21 @@ def expected_ends(run: Transcript) -> Ends:
     """Return how the run may end, why it fails, and the messages that may be printed."""
     missing = {service: is_missing(run, service) for service in (ENABLE, STATUS)}
     if all(missing.values()):
-        return Ends(False, True, "nobody offers enable_motors and get_status")
+        return Ends(False, True, "there is no server of enable_motors or get_status")
     for service in missing:
         if missing[service]:
             types = [each for each in run.all(ev.ServiceOffered) if each.service == service]
-            what = "is there with another type" if types else "is offered by nobody"
+            what = "has another type" if types else "has no server"
             return Ends(False, True, f"{service} {what}")
     late = [service for service in missing if missing[service] is None]
-    may_fail, why = bool(late), f"{late[-1]} came late" if late else ""
+    may_fail, why = bool(late), f"{late[-1]} appeared late" if late else ""
     responses: list[Any] = []
     for service in missing:
         answers, responses = _answers(run, service)
-        if False in answers and (asked(run, service) or may_fail):  # unasked, it would have answered
-            what = "died before it answered" if died(run, service, run.end) else "has not answered"
+        if False in answers and (
+            asked(run, service) or may_fail
+        ):  # without a request, it would have responded
+            what = "died before it responded" if died(run, service, run.end) else "did not respond"
             may_fail, why = True, f"{service} {what}"
             if True not in answers:
                 return Ends(False, True, why)
@@ -123,7 +129,7 @@ def expected_ends(run: Transcript) -> Ends:
 
 
 def _answers(run: Transcript, service: str) -> tuple[set[bool], list[Any]]:
-    """Return whether the service answers (True) or is silent, both if it may count as either; and the responses."""
+    """Return whether the service responds (True) or not, both if that is uncertain, and the responses."""
     sent = asked(run, service)
     replies = [reply for each in sent for reply in each.replies]
     for each in sent:

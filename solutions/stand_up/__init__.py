@@ -1,1 +1,1 @@
-"""Stand up from a crouch, in phases: an action server of chapter 10."""
+"""Chapter 10: an action server that makes the robot stand up from a crouch, in phases."""

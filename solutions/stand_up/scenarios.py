@@ -1,4 +1,4 @@
-"""What is done to a server that stands the robot up. No expected answers here: this runs in the arena."""
+"""The steps of scenarios for a stand_up server. No expected responses here: this runs in the arena."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from humanoid_interfaces.action import StandUp
 from humanoid_interfaces.msg import RobotState
 
 ROBOT_TOPICS_TIME = 1.0  # s for the first messages of the robot to arrive
-HEIGHT_TIMEOUT = 5.0  # s for the pelvis to get to a height
+HEIGHT_TIMEOUT = 5.0  # s for the pelvis to reach a height
 RESULT_TIMEOUT = 16.0  # s for any result
-UNEVEN = 0.5  # of the larger load, at most; so the robot stands when somebody leans on it
-LEANING = 4.0  # s for the loads to become uneven
+UNEVEN = 0.5  # the smaller load over the larger, at most, when somebody leans on the robot
+UNEVEN_TIMEOUT = 4.0  # s for the loads to become uneven
 NO_VELOCITY = (0.0, 0.0, 0.0)
 
 
 def in_order(stage: Stage, steps: Steps) -> None:
-    """Ask, cancel, lean on the robot, push it, let it crouch: in the order of the steps."""
+    """Send goals, cancel them, lean on the robot, push it, make it crouch, in the order of the steps."""
     stand_up = stage.action("stand_up", StandUp)
     stage.open()
     robot = stage.robot
@@ -44,7 +44,7 @@ def in_order(stage: Stage, steps: Steps) -> None:
             sent[name].wait_for_answer()
 
     def crouch(height: float) -> None:
-        robot.take_over(NO_VELOCITY)  # so that nothing comes between
+        robot.take_over(NO_VELOCITY)  # so that the server's commands do not interfere
         robot.move_body(-0.1)
         robot.wait_for(lambda state: state.z < height, HEIGHT_TIMEOUT)
         robot.move_body(0.0)
@@ -57,7 +57,7 @@ def in_order(stage: Stage, steps: Steps) -> None:
 
     def lean_on(force: float, duration: float) -> None:
         robot.lean_on([0.0, force, 0.0], duration)
-        robot.wait_for_feet(lambda left, right: min(left, right) < UNEVEN * max(left, right), LEANING)
+        robot.wait_for_feet(lambda left, right: min(left, right) < UNEVEN * max(left, right), UNEVEN_TIMEOUT)
 
     carry_out(
         stage,
@@ -79,12 +79,12 @@ def in_order(stage: Stage, steps: Steps) -> None:
     )
 
 
-# -- a robot that the scenario plays -----------------------------------------------------------------------------------
+# -- a robot whose topics the scenario simulates -----------------------------------------------------------------------
 
 
 def ask_before_anything_is_known(stage: Stage) -> None:
-    """Ask before any message of the robot, and again when a played one crouches."""
-    robot = _PlayedRobot(stage, 0.45)
+    """Send a goal before any message of the robot, and another while a simulated robot crouches."""
+    robot = _SimulatedRobot(stage, 0.45)
     stand_up = _open(stage)
     stand_up.send_and_wait(as_="before")
     with robot:
@@ -95,18 +95,18 @@ def ask_before_anything_is_known(stage: Stage) -> None:
 def sway_before(
     stage: Stage, nearly: float, light: float, even: int, uneven: int, swings: int, rests: float
 ) -> None:
-    """Play a robot whose weight rests nearly between its feet, swings from foot to foot, then rests between them.
+    """Simulate a robot whose loads are nearly even, then swing from foot to foot, then stay even.
 
     Args:
         stage: the stage.
-        nearly: what the right foot carries at first, as a share of the left one's load.
-        light: what the lighter foot carries at the ends of a swing, as a share of the other's load.
-        even: how long the loads are even in the middle of each swing, in periods of its messages.
-        uneven: how long they are not, in periods.
-        swings: from side to side.
-        rests: what the right foot carries at last, as a share of the left one's load.
+        nearly: the right foot's load over the left foot's, at first.
+        light: the smaller load over the larger, at the end of a swing.
+        even: number of messages with even loads in the middle of each swing.
+        uneven: number of messages with uneven loads in each swing.
+        swings: number of swings from one side to the other.
+        rests: the right foot's load over the left foot's, at the end.
     """
-    with _PlayedRobot(stage, 0.45) as robot:
+    with _SimulatedRobot(stage, 0.45) as robot:
         stand_up = _open(stage)
         robot.change(share=nearly)
         stage.wait(ROBOT_TOPICS_TIME)
@@ -120,8 +120,8 @@ def sway_before(
 
 
 def step_aside_at_the_top(stage: Stage, light: float, duration: float) -> None:
-    """Play a robot that has risen, puts its weight on one foot for `duration` s, and then back between both."""
-    with _PlayedRobot(stage, 0.48) as robot:
+    """Simulate a robot that rises, puts its weight on one foot for `duration` s, then on both again."""
+    with _SimulatedRobot(stage, 0.48) as robot:
         goal = _open(stage).send_and_wait(as_="rise")
         stage.poll_until(lambda: robot.z >= TOP, HEIGHT_TIMEOUT)
         stage.wait(0.2)
@@ -134,17 +134,17 @@ def step_aside_at_the_top(stage: Stage, light: float, duration: float) -> None:
 def be_restless(
     stage: Stage, speed: float, tilt: float, towards: Sequence[float], calm: float, duration: float
 ) -> None:
-    """Play a robot that has risen, and is not calm for a while.
+    """Simulate a robot that rises, then glides or leans for a while before it is still and upright.
 
     Args:
         stage: the stage.
-        speed: with which the pelvis glides and bobs, m/s.
+        speed: at which the pelvis glides and bobs, m/s.
         tilt: of the pelvis, rad.
         towards: the directions in which it glides and leans, one after the other, rad in base_link.
-        calm: how long it stands still and upright after each unrest of 0.3 s; 0: never.
-        duration: of each direction, s.
+        calm: how long it is still and upright after every 0.3 s of motion, s; 0: never.
+        duration: of the motion in each direction, s.
     """
-    with _PlayedRobot(stage, 0.48) as robot:
+    with _SimulatedRobot(stage, 0.48) as robot:
         goal = _open(stage).send_and_wait(as_="rise")
         stage.poll_until(lambda: robot.z >= NEAR_THE_TOP, HEIGHT_TIMEOUT)
         robot.change("restless", speed=speed, tilt=tilt, calm=calm)
@@ -156,15 +156,15 @@ def be_restless(
 
 
 def never_get_up(stage: Stage, even: float, uneven: float, times: int) -> None:
-    """Play a robot that is too weak to rise, and whose weight goes to one foot again and again, at last for good.
+    """Simulate a robot that is too weak to rise. Its weight moves to one foot several times and finally stays there.
 
     Args:
         stage: the stage.
-        even: how long its weight rests on both feet, s.
-        uneven: how long it rests on one of them, s.
-        times: how often.
+        even: duration with the weight on both feet, s.
+        uneven: duration with the weight on one foot, s.
+        times: number of repetitions.
     """
-    with _PlayedRobot(stage, 0.45, weak=True) as robot:
+    with _SimulatedRobot(stage, 0.45, weak=True) as robot:
         goal = _open(stage).send_and_wait(as_="rise")
         for _ in range(times):
             robot.change(share=1.0)
@@ -182,30 +182,30 @@ def _open(stage: Stage) -> ActionClient:
     return stand_up
 
 
-PERIOD = 0.05  # s between two messages of the played robot
+PERIOD = 0.05  # s between two messages of the simulated robot
 WEIGHT = 372.0  # N
 NEAR_THE_TOP, TOP, STANCE = 0.575, 0.59, 0.60  # m
-RESTLESS = 6  # periods, 0.3 s, between two pauses
-HEEDED = 10  # periods, 0.5 s, for which a velocity holds
+MOTION_PERIODS = 6  # 0.3 s of motion between two pauses
+COMMAND_PERIODS = 10  # 0.5 s, for which a velocity command is valid
 BOB = 0.003  # m
-BOBBING = 6  # periods
+BOB_PERIODS = 6
 
 
-class _PlayedRobot:
-    """Publishes in a `with` block what a robot publishes that stands on both feet and rises as cmd_vel says.
+class _SimulatedRobot:
+    """Publishes, in a `with` block, the topics of a robot that stands on both feet and rises as cmd_vel commands.
 
     Args:
         stage: the stage.
         height: of the pelvis at first, m.
-        weak: it does not rise, whatever it is told.
+        weak: whether it ignores cmd_vel.
 
     Attributes:
         z: height of the pelvis, m.
-        share: what the right foot carries, as a share of the left foot's load.
-        speed: with which it glides, m/s; it then bobs, too.
+        share: the right foot's load over the left foot's.
+        speed: at which it glides, m/s; above 0 it also bobs.
         tilt: how far it leans, rad.
         toward: the direction in which it glides and leans, rad in base_link, counter-clockwise from ahead.
-        calm: how long speed and tilt are left out after each 0.3 s with them, s; 0: never.
+        calm: how long speed and tilt are 0 after each 0.3 s of motion, s; 0: never.
     """
 
     def __init__(self, stage: Stage, height: float, *, weak: bool = False) -> None:
@@ -216,13 +216,13 @@ class _PlayedRobot:
         self._odom = stage.offer_topic("odom", Odometry)
         self._feet = {side: stage.offer_topic(f"{side}_foot/wrench", WrenchStamped) for side in "lr"}
         self._cmd_vel = stage.listen("cmd_vel", Twist)
-        self._shares: deque[float] = deque()  # of the rounds to come
-        self._heard, self._silent, self._rounds = 0, 0, 0
+        self._shares: deque[float] = deque()  # for the next rounds
+        self._received, self._rounds_without_command, self._rounds = 0, 0, 0
         self._then = time.monotonic()
         self._changing = threading.Lock()
         self._is_over = False
 
-    def __enter__(self) -> _PlayedRobot:
+    def __enter__(self) -> _SimulatedRobot:
         threading.Thread(target=self._live, daemon=True).start()
         return self
 
@@ -231,7 +231,7 @@ class _PlayedRobot:
             self._is_over = True
 
     def change(self, mark: str = "", **attributes: float) -> None:
-        """Set attributes between two rounds of messages, and name that moment for the checks."""
+        """Set attributes between two rounds of messages, and record a mark at that time for the checks."""
         with self._changing:
             for name, value in attributes.items():
                 setattr(self, name, value)
@@ -239,7 +239,7 @@ class _PlayedRobot:
                 self._stage.mark(mark)
 
     def follow(self, shares: Sequence[float]) -> None:
-        """Take these shares in the rounds to come, one in each: no other thread can make one of them last longer."""
+        """Use each of these shares for exactly one of the next rounds, however the threads are scheduled."""
         with self._changing:
             self._shares.extend(shares)
 
@@ -258,19 +258,19 @@ class _PlayedRobot:
             self._stage.wait(due - time.monotonic())
 
     def _is_calm(self) -> bool:
-        """Return whether this round falls into a pause, counted in rounds, which no other thread can make longer."""
+        """Return whether this round is part of a pause; pauses count rounds, so scheduling does not lengthen them."""
         pause = round(self.calm / PERIOD)
-        return self._rounds % (RESTLESS + pause) >= RESTLESS
+        return self._rounds % (MOTION_PERIODS + pause) >= MOTION_PERIODS
 
     def _climb(self) -> float:
-        """Return how fast it rises now, m/s."""
-        heard, self._heard = self._heard, self._cmd_vel.messages
-        self._silent = 0 if self._heard > heard else self._silent + 1
-        if self._weak or self._cmd_vel.latest is None or self._silent > HEEDED:
+        """Return the current speed of rising, m/s."""
+        received, self._received = self._received, self._cmd_vel.messages
+        self._rounds_without_command = 0 if self._received > received else self._rounds_without_command + 1
+        if self._weak or self._cmd_vel.latest is None or self._rounds_without_command > COMMAND_PERIODS:
             return 0.0
         rate = self._cmd_vel.latest.linear.z
-        is_there = self.z >= STANCE and rate > 0
-        return 0.0 if is_there or not math.isfinite(rate) else max(-0.15, min(0.15, rate))
+        is_at_the_top = self.z >= STANCE and rate > 0
+        return 0.0 if is_at_the_top or not math.isfinite(rate) else max(-0.15, min(0.15, rate))
 
     def _publish(self) -> None:
         now = time.monotonic()
@@ -291,8 +291,8 @@ class _PlayedRobot:
         odom.header.frame_id, odom.header.stamp = "odom", stamp
         position, orientation = odom.pose.pose.position, odom.pose.pose.orientation
         position.x, position.y = self._x, self._y
-        position.z = self.z - (BOB if speed and self._rounds % BOBBING > 2 else 0.0)
-        # It turns about the horizontal axis across the direction in which it leans.
+        position.z = self.z - (BOB if speed and self._rounds % BOB_PERIODS > 2 else 0.0)
+        # The axis of rotation is horizontal and perpendicular to the direction in which it leans.
         orientation.x, orientation.y = -left * math.sin(tilt / 2), ahead * math.sin(tilt / 2)
         orientation.w = math.cos(tilt / 2)
         velocity = odom.twist.twist.linear

@@ -1,1 +1,1 @@
-"""Chapter 6: a client that sends the robot to a pose, follows it, and says how it ended."""
+"""Chapter 6: a client that sends the robot to a pose, prints the feedback, and reports the result."""

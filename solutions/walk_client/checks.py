@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ prints_the_feedback = check_of(model.prints_each_feedback, points=2, on=GOOD, ne
 
 says_how_it_succeeded = check_of(
     follows(3, 4),
-    title="When the goal SUCCEEDED it prints so with the final pose, and ends with status 0",
+    title="After SUCCEEDED it prints that with the final pose, and exits with status 0",
     points=2,
     on=GOOD,
     needs=sends_the_goal,
@@ -31,7 +31,7 @@ gives_up_without_a_server = every_client.check("gives_up_without_a_server", 6, 9
 
 tells_a_rejection = check_of(
     follows(5, 9),
-    title="A rejected goal ends it with status 2",
+    title="After a rejected goal it exits with status 2",
     on=REJECTING,
     needs=says_how_it_succeeded,
     see="06_walk_to_a_pose#client-intro",

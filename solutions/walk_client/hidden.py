@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks."""
+"""The hidden checks, which only the instructor's grading runs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from . import checks, model
 
 
 def _arrives(random: Random) -> scene.Script:
-    """Ctrl-C when the server agrees to no cancel, so that the goal comes to its own end."""
+    """Draw a scenario with Ctrl-C and a server that rejects the cancel, so that the goal ends by itself."""
     status = random.choice([scene.SUCCEEDED, scene.ABORTED])
     return scene.ctrl_c(random, {"ends_after": 4.2, "status": status, "cancel": {"agreed": False}})
 
@@ -29,7 +29,7 @@ PREEMPTED = scene.walk(
     {"ends_after": 1.0, "status": scene.ABORTED, "error_code": 2, "error_msg": "a later goal took the robot"}
 )
 WITH_WORDS = scene.walk({**scene.ON_THE_WAY, "error_msg": "the floor is slippery"})
-FORGETFUL = scene.walk({**scene.ON_THE_WAY, "kept_for": 1.0})
+KEEPS_RESULT_1_S = scene.walk({**scene.ON_THE_WAY, "kept_for": 1.0})
 NEVER_CANCELED = scene.walk(
     {**scene.ON_AND_ON, "cancel": {"ends_after": None}}, *scene.typed(), ["press_ctrl_c"]
 )
@@ -37,8 +37,7 @@ ARRIVES = program("in_order", _arrives)
 
 walks_anywhere = check_of(
     model.holds_whatever_happens,
-    title="Negative numbers, and a yaw that is left out, are sent as they are meant; whatever the server does, every "
-    "clause holds",
+    title="It sends the right pose for negative numbers and without a yaw; every clause holds with any server",
     on=[WITHOUT_YAW, ANY_COURSE],
     needs=[checks.says_how_it_succeeded, checks.ctrl_c_cancels_the_goal],
     see="03_clients_that_survive#fix-frame",
@@ -58,7 +57,7 @@ gives_up_without_an_answer = every_client_hidden.check(
 
 walks_as_long_as_it_takes = check_of(
     [model.sends_one_goal, follows(8)],
-    title="A late server, a late answer, and a walk of a minute with feedback at most 4.5 s apart are waited for",
+    title="It waits for a late server, a late response, and a walk of a minute with feedback at most 4.5 s apart",
     points=2,
     on=SLOW,
     needs=checks.gives_up_in_silence,
@@ -67,7 +66,7 @@ walks_as_long_as_it_takes = check_of(
 
 notices_silence_on_the_way = check_of(
     follows(7, 9),
-    title="A server that falls silent or dies on the way ends it with status 1, 5 s after the last feedback",
+    title="If feedback stops or the server dies on the way, it exits with status 1, 5 s after the last feedback",
     on=SILENT_ON_THE_WAY,
     needs=walks_as_long_as_it_takes,
     see="03_clients_that_survive#kill-why",
@@ -79,7 +78,7 @@ survives_early_feedback = every_client_hidden.check(
 
 tells_a_cancel_by_another = check_of(
     follows(3, 4),
-    title="A goal that somebody else cancels ends it with status 4, and a line on stdout says CANCELED",
+    title="If another client cancels the goal, it exits with status 4, and a line on stdout says CANCELED",
     on=BY_ANOTHER,
     needs=checks.tells_an_abort,
     see="07_cancel_and_preempt#cancel-all",
@@ -87,7 +86,7 @@ tells_a_cancel_by_another = check_of(
 
 believes_the_status = check_of(
     follows(3, 9),
-    title="The status decides: ABORTED is 3 with any error_code, SUCCEEDED with an error_msg is 0",
+    title="Only the goal's status decides: after ABORTED it exits with 3 at any error_code, after SUCCEEDED with 0",
     points=2,
     on=[NO_CODE, PREEMPTED, WITH_WORDS],
     needs=checks.tells_an_abort,
@@ -96,14 +95,14 @@ believes_the_status = check_of(
 
 asks_for_the_result_in_time = check_of(
     [model.asks_for_its_result, follows(12)],
-    title="A server that keeps a result for 1 s is asked for it before",
-    on=FORGETFUL,
+    title="It requests the result in time from a server that keeps it for only 1 s",
+    on=KEEPS_RESULT_1_S,
     needs=checks.says_how_it_succeeded,
 )
 
 ctrl_c_ends_it_in_any_case = check_of(
     follows(10),
-    title="After Ctrl-C it ends with status 4, also when the goal ended otherwise all the same or has not ended in 5 s",
+    title="After Ctrl-C it exits with status 4, also if the goal is not canceled or has no result within 5 s",
     on=[NEVER_CANCELED, ARRIVES],
     needs=checks.ctrl_c_cancels_the_goal,
     see="07_cancel_and_preempt#m1-why",
@@ -111,7 +110,7 @@ ctrl_c_ends_it_in_any_case = check_of(
 
 prints_any_feedback = check_of(
     model.prints_each_feedback,
-    title="Whatever the distances are, they are printed as they came",
+    title="It prints all distances unchanged",
     on=WITHOUT_YAW,
     needs=checks.prints_the_feedback,
     see="06_walk_to_a_pose#slow-end-why",

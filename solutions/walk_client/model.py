@@ -1,4 +1,4 @@
-"""What must hold of every run of the walk client: what it sends, cancels and prints, and how it ends."""
+"""What must hold for every run of the walk client: what it sends, cancels and prints, and how it exits."""
 
 from __future__ import annotations
 

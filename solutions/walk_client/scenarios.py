@@ -1,4 +1,4 @@
-"""Action servers, and what a person does, as the checks write them down. This runs in the arena."""
+"""Scenarios with a scripted action server and a scripted person; the checks supply the scripts."""
 
 from __future__ import annotations
 
@@ -9,5 +9,5 @@ from autograder.arena.client_stage import ClientStage
 
 
 def in_order(stage: ClientStage, **script: Any) -> None:
-    """Carry out a script: `scripted_walk` says of what it consists."""
+    """Carry out a script; `scripted_walk` documents its parts."""
     scripted_walk.in_order(stage, **script)

@@ -1,4 +1,4 @@
-"""What students can see being checked."""
+"""The checks that students can see and run themselves."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ IMPOSSIBLE = in_order(
     ["ask", "NaN velocity", "max_velocity", math.nan],
     robot=RESTING,
 )
-# The robot that is played stands, whatever it is told: one that asks whether it walks takes a second goal.
+# This simulated robot always stands, so a server that tests robot_state for WALKING would accept a second goal.
 UNREADY = Scenario(
     "beside_a_played_robot",
     {
@@ -64,7 +64,7 @@ rejects_before_the_first_odom = check_of(
 )
 rejects_without_power = check_of(
     [model.rejects_without_power, model.accepts_unless_busy],
-    title="It rejects a goal while the motors are off, also later on, and accepts it when they are on",
+    title="It rejects a goal while the motors are off, at any time, and accepts it when they are on",
     on=[UNREADY, FALL],
     needs=accepts_a_goal,
     see=REJECT,
@@ -72,7 +72,7 @@ rejects_without_power = check_of(
 refuses_a_cancel = check_of(model.refuses_cancels, on=INTERFERE, needs=accepts_a_goal)
 rejects_a_second_goal = check_of(
     [model.rejects_while_busy, model.goes_on],
-    title="A goal while another runs is rejected, and the first goes on",
+    title="It rejects a second goal while the first is active, and the first goes on",
     on=[INTERFERE, UNREADY],
     needs=refuses_a_cancel,
     see="06_walk_to_a_pose#small-intro",

@@ -1,4 +1,4 @@
-"""What only the instructor's grading checks."""
+"""The hidden checks, which only the instructor's grading runs."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from autograder.classroom.hidden_checks import standard_hidden
 from . import checks, model
 
 AFTERWARDS = 0.8  # s from a result to the next goal
-LISTENING = 1.5  # s after the last result in which nothing more may come
+QUIET_TIME = 1.5  # s after the last result, in which no more feedback may be published
 
 
 def _steps(random: Random) -> dict[str, Any]:
-    """Turn its back, cross pi slowly on a diagonal, ask for the impossible and for much at once; fall, and get up.
+    """Turn around, walk slowly along a diagonal, the heading crossing pi; send invalid and simultaneous goals; fall.
 
-    A velocity in odom's axes leads away from the second pose, and one that is limited axis by axis is 1.4 times too
-    fast on the way there.
+    On the way to the second pose, a velocity in odom's axes leads in a wrong direction, and a velocity that is limited
+    for each axis is 1.4 times too fast. After the fall the robot is set up again.
     """
     side = random.choice((-1, 1))
     far = (random.uniform(0.2, 0.3), random.uniform(-0.1, 0.1), side * random.uniform(3.0, 3.1))
@@ -54,9 +54,9 @@ def _steps(random: Random) -> dict[str, Any]:
         *(["arrive", "one"], ["arrive", "other"], ["wait", AFTERWARDS]),
         *impossible(
             random, ("pose.orientation.w", 0.0), ("max_velocity", random.choice((-0.01, -3.0, *NOT_FINITE)))
-        ),  # when all else is done, so that one that is accepted is in nobody's way
+        ),  # near the end, so that one that is accepted does not disturb other goals
         *(["go", "far", 0.0, 0.0, yaw, 0.3], ["walk_for", round(random.uniform(0.3, 1.0), 2)]),
-        *(["cut_power"], ["end", "far"], ["wait", LISTENING], ["go", "lying", 0.0, 0.0, 0.0]),
+        *(["cut_power"], ["end", "far"], ["wait", QUIET_TIME], ["go", "lying", 0.0, 0.0, 0.0]),
         *(["set_up"], ["go", "up again", x, y, yaw, 0.2], ["arrive", "up again"]),
     ]
     return {"steps": rounded(steps)}
@@ -64,7 +64,7 @@ def _steps(random: Random) -> dict[str, Any]:
 
 ANY_ORDER = Scenario("in_order", _steps)
 
-WALKED = (model.accepts, model.succeeds)  # without which nobody can tell how it walked
+WALKED = (model.accepts, model.succeeds)  # required before its way of walking can be checked
 
 in_any_order = partial(check_of, on=ANY_ORDER, needs=checks.arrives, see=checks.FRAMES)
 arrives_anywhere = in_any_order(
@@ -86,7 +86,7 @@ arrives_anywhere = in_any_order(
         model.tells_a_fall,
         model.says_why_it_aborted,
     ],
-    title="It reaches poses with any heading, one after the other, whatever is asked meanwhile, and keeps every clause",
+    title="It reaches several poses with any heading, with other requests meanwhile, and fulfils every clause",
     points=2,
 )
 turns_the_shorter_way = in_any_order(
@@ -94,7 +94,7 @@ turns_the_shorter_way = in_any_order(
 )
 obeys_any_max_velocity = in_any_order(
     [*WALKED, model.obeys_max_velocity],
-    title="It is no faster than max_velocity in any direction",
+    title="The robot is not faster than max_velocity in any direction",
     needs=[checks.arrives, checks.obeys_max_velocity],
 )
 rejects_any_other_frame = in_any_order(
@@ -105,7 +105,7 @@ rejects_any_other_frame = in_any_order(
         model.rejects_velocities,
         model.rejects_without_power,
     ],
-    title="It rejects any other frame than odom, and all that is no pose or velocity",
+    title="It rejects every frame other than odom, and every invalid pose or velocity",
     needs=checks.rejects_a_wrong_frame,
     see=checks.REJECT,
 )

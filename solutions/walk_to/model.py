@@ -1,4 +1,4 @@
-"""What must hold of every goal of walk_to, and of the robot while none is active, clause by clause."""
+"""What must hold for every goal of walk_to, and for the robot without a goal, clause by clause."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _accept = accepting(
 
 
 def _accept_unless_busy(goal: Goal) -> str | None:
-    """It accepts a pose in frame odom when nothing speaks against it but perhaps a goal that it should have rejected"""
+    """It accepts a valid goal, unless an earlier goal that it should have rejected is active"""
     return "while another is active" if objections.while_busy.because(goal) != "" else _accept(goal)
 
 

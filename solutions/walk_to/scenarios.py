@@ -1,4 +1,4 @@
-"""What is done to a walking server. No expected answers here: this runs in the arena."""
+"""The steps of scenarios for a walk_to server. No expected responses here: this runs in the arena."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from autograder.arena.walking_steps import ROBOT_TOPICS_TIME, walk_in_order
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
 
-PERIOD = 0.05  # s between two messages of the played robot, as odom's
+PERIOD = 0.05  # s between two messages of the simulated robot, the same as for odom
 
 
 def in_order(stage: Stage, steps: Steps) -> None:
-    """Send goals, ask to cancel, disturb the robot, wait: in the order of the steps."""
+    """Send goals, cancel them, disturb the robot and wait, in the order of the steps."""
     walk_in_order(stage, "walk_to", WalkTo, steps, _goal)
 
 
 def beside_a_played_robot(stage: Stage, steps: Steps) -> None:
-    """The same beside a robot that is played: ["play", odom, powered] says what it publishes for a while."""
-    robot = _PlayedRobot(stage)
+    """Do the same with a simulated robot: the step ["play", odom, powered] publishes its topics for a while."""
+    robot = _SimulatedRobot(stage)
     walk_in_order(stage, "walk_to", WalkTo, steps, _goal, {"play": robot.publish_for_a_while})
 
 
@@ -30,8 +30,8 @@ def _goal(pose: PoseStamped, fastest: float) -> WalkTo.Goal:
     return WalkTo.Goal(target_pose=pose, max_velocity=fastest)
 
 
-class _PlayedRobot:
-    """Publishes what a robot that stands at the origin publishes."""
+class _SimulatedRobot:
+    """Publishes the topics of a robot that stands at the origin."""
 
     def __init__(self, stage: Stage) -> None:
         self._stage = stage
@@ -39,7 +39,7 @@ class _PlayedRobot:
         self._odom = stage.offer_topic("odom", Odometry)
 
     def publish_for_a_while(self, odom: bool, powered: bool) -> None:
-        """Publish long enough for the last messages to have arrived."""
+        """Publish until the messages have certainly arrived."""
         for _ in range(round(2 * ROBOT_TOPICS_TIME / PERIOD)):
             self._publish_state(powered)
             if odom:

@@ -313,8 +313,12 @@ SAID = {
         "motor_services",
         "only_a_flag",
         "powers_off",
-    ): "On motor_power the grader saw no message after the request.",
-    ("motor_services", "flag_of_its_own", "follows_the_robot"): "get_status followed your last request",
+    ): "On motor_power the grader received no message after the request.",
+    (
+        "motor_services",
+        "flag_of_its_own",
+        "follows_the_robot",
+    ): "get_status reported the last request to enable_motors",
     ("cancellable_walk", "walks_on", "stops_when_canceled"): "Publish a zero Twist",
 }
 

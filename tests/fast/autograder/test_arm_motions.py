@@ -117,7 +117,7 @@ def test_an_arm_that_follows_has_arrived() -> None:
 
 def test_an_arm_that_is_not_there_has_not() -> None:
     run = moved(lambda t: follows(t) - 0.2)
-    assert "l_elbow is 0.20 rad away" in failure_of(ends.succeeds, run.goal("move")).observed
+    assert "l_elbow was 0.20 rad away" in failure_of(ends.succeeds, run.goal("move")).observed
 
 
 def test_success_before_the_last_points_time_is_too_early_and_long_after_it_too_late() -> None:
@@ -159,7 +159,7 @@ def asked_to_cancel(t: float, place: Any) -> Any:
 
 def test_an_arm_that_turns_on_has_not_stopped() -> None:
     failure = failure_of(motion.stops_when_canceled, asked_to_cancel(2.8, follows).goal("move"))
-    assert "l_elbow turns at 0.50 rad/s" in failure.observed
+    assert "l_elbow turned at 0.50 rad/s" in failure.observed
     stopped = asked_to_cancel(2.8, lambda t: follows(min(t, 3.0)))
     assert ends.grants_cancels(stopped.goal("move")) == "on the way"
     assert motion.stops_when_canceled(stopped.goal("move")) == "alone"
@@ -174,14 +174,14 @@ def test_a_result_names_one_joint(said: str, word: str) -> None:
 
 
 def test_a_named_joint_is_found() -> None:
-    assert reports.names_the_joint(held("l_elbow: 0.5 rad off").goal("move")) == "1 held"
+    assert reports.names_the_joint(held("l_elbow: 0.5 rad off").goal("move")) == "1 blocked"
 
 
 def test_a_blocked_arm_strays_and_one_that_goes_on_later_has_not_held() -> None:
     goal = held("l_elbow").goal("move")
-    assert ends.strays(goal) == "held"
-    assert motion.holds_when_given_up(goal) == "let go"
-    assert "went on" in failure_of(motion.holds_when_given_up, held("l_elbow", FAR).goal("move")).observed
+    assert ends.strays(goal) == "blocked"
+    assert motion.holds_when_given_up(goal) == "released"
+    assert "moved on" in failure_of(motion.holds_when_given_up, held("l_elbow", FAR).goal("move")).observed
 
 
 def silenced(code: int) -> Any:
@@ -216,15 +216,21 @@ def behind(t: float) -> float:
     [
         (given_up(follows, MoveArm.Result.PREEMPTED), "newest goal of each arm"),
         (given_up(follows, MoveArm.Result.INVALID_JOINTS), "num_threads"),
-        (given_up(follows, MoveArm.Result.PATH_TOLERANCE_VIOLATED, after=1.0), "0.00 rad off its trajectory"),
-        (given_up(behind, MoveArm.Result.PATH_TOLERANCE_VIOLATED, after=1.0), "did not get all of it"),
+        (
+            given_up(follows, MoveArm.Result.PATH_TOLERANCE_VIOLATED, after=1.0),
+            "the largest error was 0.00 rad",
+        ),
+        (given_up(behind, MoveArm.Result.PATH_TOLERANCE_VIOLATED, after=1.0), "did not receive all of it"),
         (given_up(follows, MoveArm.Result.GOAL_TOLERANCE_VIOLATED), "0 rad, which means 0.05"),
         (
             given_up(behind, MoveArm.Result.GOAL_TOLERANCE_VIOLATED, tolerance=0.4),
             "goal_tolerance is 0.4 rad",
         ),
-        (given_up(behind, MoveArm.Result.GOAL_TOLERANCE_VIOLATED, after=4.2), "has 1 s more"),
-        (given_up(behind, MoveArm.Result.GOAL_TOLERANCE_VIOLATED), "0.30 rad from the last point, too"),
+        (given_up(behind, MoveArm.Result.GOAL_TOLERANCE_VIOLATED, after=4.2), "have 1 s to arrive"),
+        (
+            given_up(behind, MoveArm.Result.GOAL_TOLERANCE_VIOLATED),
+            "too, l_elbow was 0.30 rad from the last point",
+        ),
     ],
 )
 def test_why_a_goal_was_given_up_is_told_by_its_code_and_by_where_the_arm_was(run: Any, word: str) -> None:

@@ -77,20 +77,28 @@ def test_each_accepted_set_has_one_message(together: bool) -> None:
 @pytest.mark.parametrize(
     ("obligation", "published", "next_step"),
     [
-        ("one_message_each", [message(SET + 0.1, **PAIR), message(SET + 0.1, **PAIR)], "behind the loop"),
-        ("one_message_each", [message(SET + 0.1 * number, **PAIR) for number in range(5)], "from no timer"),
-        ("publishes_them_in_time", [message(SET + 0.1)], "values of before the set"),
-        ("publishes_them_in_time", [message(SET + 0.1, **PAIR, kp_roll=0.0)], "A new message holds zeros"),
-        ("publishes_them_in_time", [message(SET + 0.1, **PAIR, kp_roll=333.0)], "must leave nothing behind"),
+        ("one_message_each", [message(SET + 0.1, **PAIR), message(SET + 0.1, **PAIR)], "after the loop"),
+        (
+            "one_message_each",
+            [message(SET + 0.1 * number, **PAIR) for number in range(5)],
+            "nor from a timer",
+        ),
+        ("publishes_them_in_time", [message(SET + 0.1)], "values from before the set"),
+        (
+            "publishes_them_in_time",
+            [message(SET + 0.1, **PAIR, kp_roll=0.0)],
+            "In a new message every field is 0",
+        ),
+        ("publishes_them_in_time", [message(SET + 0.1, **PAIR, kp_roll=333.0)], "no value of a rejected set"),
         ("publishes_them_in_time", [message(SET + 0.1, **PAIR, kp_roll=302.4)], "without rounding"),
         (
             "publishes_them_in_time",
             [message(SET + 0.1, **(PAIR | {"kp_pitch": 302.0, "kp_roll": 320.0}))],
-            "pitch and roll are exchanged",
+            "pitch and roll are swapped",
         ),
         ("publishes_them_in_time", [message(ASKED)], "Publish in the post-set callback"),
         ("publishes_them_in_time", [message(SET + 3.0, **PAIR)], "not from a timer"),
-        ("publishes_them_in_time", [message(SET + 0.1, kp_pitch=320.0)], "Other gains are new"),
+        ("publishes_them_in_time", [message(SET + 0.1, kp_pitch=320.0)], "old values of some gains"),
         ("publishes_them_in_time", [], "add_post_set_parameters_callback"),
         ("publishes_them_in_time", [ev.Mark(t=ASKED, name="nobody publishes")], "give create_publisher"),
     ],
@@ -104,20 +112,22 @@ def test_what_is_published_for_a_set_is_compared_with_it(
 
 def test_a_refused_set_is_silent_and_has_a_reason() -> None:
     refused = controller(*requested(PAIR, NO, together=True))
-    assert MODEL.says_nothing_when_it_refuses.judge(refused)
+    assert MODEL.publishes_nothing_for_rejected_sets.judge(refused)
     assert MODEL.gives_a_reason.judge(refused)
     assert "too weak" in failure_of(MODEL.accepts_the_table.judge, refused).observed
     published = controller(*requested(PAIR, NO, together=True), message(SET + 0.1, **PAIR))
-    assert "only says yes or no" in failure_of(MODEL.says_nothing_when_it_refuses.judge, published).help
+    assert (
+        "Only accept or reject" in failure_of(MODEL.publishes_nothing_for_rejected_sets.judge, published).help
+    )
     silent = controller(*requested(PAIR, SetParametersResult(successful=False), together=True))
     assert "a reason" in failure_of(MODEL.gives_a_reason.judge, silent).help
 
 
 def test_a_bad_gain_is_refused_wherever_it_stands_in_a_set() -> None:
     alone = controller(*requested({"kp_pitch": 40.0}, YES))
-    assert "Refuse a kp" in failure_of(MODEL.refuses_weak_gains.judge, alone).help
+    assert "reject a kp" in failure_of(MODEL.refuses_weak_gains.judge, alone).help
     behind = controller(*requested({"kd_roll": 40.0, "kp_pitch": 40.0}, YES, together=True))
-    assert "not only at the first one" in failure_of(MODEL.refuses_weak_gains.judge, behind).help
+    assert "not only the first one" in failure_of(MODEL.refuses_weak_gains.judge, behind).help
     assert not MODEL.refuses_no_numbers.judge(behind)
 
 
@@ -152,10 +162,10 @@ def test_a_robot_that_falls_is_reported_with_its_gains() -> None:
     survives = MODEL.survives.judge
     assert survives(pushed())
     failure = failure_of(survives, pushed(fallen_from=5.0))
-    assert "it fell at 5.0 s; it was pushed at 4.0 s" in failure.observed
+    assert "the robot fell at 5.0 s; it was pushed at 4.0 s" in failure.observed
     assert "kp_pitch 276" in failure.observed
     assert "fell at 3.5 s" in failure_of(survives, pushed(fallen_from=3.5)).observed
-    assert "switched its motors off" in failure_of(survives, pushed(fallen_from=5.0, off=True)).help
+    assert "switched the motors off" in failure_of(survives, pushed(fallen_from=5.0, off=True)).help
     with pytest.raises(CannotBeJudged):
         survives(controller(*(robot(0.1 * n) for n in range(1, 80))))
 

@@ -18,7 +18,7 @@ from humanoid_interfaces.srv import GetBatteryStatus
 from ros_runtime.record.event import to_line
 
 JUDGING = exercise_module("interfaces", "judging")
-LONGEST, require_built, require_fields = JUDGING.LONGEST, JUDGING.require_built, JUDGING.require_fields
+MAX_QUOTE, require_built, require_fields = JUDGING.MAX_QUOTE, JUDGING.require_built, JUDGING.require_fields
 
 
 def run_with(*events: Any, **params: Any) -> Transcript:
@@ -138,12 +138,12 @@ def test_of_thousands_of_problems_the_first_is_told_and_the_rest_counted() -> No
 
 def test_a_build_that_left_no_report_after_much_work_is_the_students_failure() -> None:
     failure = failure_of(require_built, built(usage(120.0)))
-    assert failure.observed == "its build was ended after 120 s of a processor"
+    assert failure.observed == "its build was stopped after 120 s of processor time"
 
 
 def test_a_build_that_failed_after_much_work_is_the_students_failure_too() -> None:
     run = built(usage(120.0), built=False, problems=[], more=0, log="ninja: stopped")
-    assert "120 s of a processor" in failure_of(require_built, run).observed
+    assert "120 s of processor time" in failure_of(require_built, run).observed
 
 
 def test_a_build_that_took_too_much_memory_says_so() -> None:
@@ -152,7 +152,7 @@ def test_a_build_that_took_too_much_memory_says_so() -> None:
 
 
 def test_a_build_that_never_got_a_processor_is_nobodys_failure() -> None:
-    with pytest.raises(CannotBeJudged, match="the build said nothing"):
+    with pytest.raises(CannotBeJudged, match="the build printed no report"):
         require_built(built(usage(3.0)))
 
 
@@ -161,4 +161,4 @@ def test_many_fields_are_quoted_in_a_readable_length() -> None:
     types = {"my_interfaces/action/Go": {"goal": {"fields": fields, "constants": {}}}}
     run = built(built=True, types=types)
     for wanted in ({"pose": "string"}, {"field_1": "float64"}):
-        assert len(failure_of(require_fields, run, "goal", wanted).observed) < LONGEST + 50
+        assert len(failure_of(require_fields, run, "goal", wanted).observed) < MAX_QUOTE + 50

@@ -93,7 +93,7 @@ def mean(share: float) -> str:
         ({"reply": SENT + 1.2}, "succeeds", TRUTH.SLOW),
         ({"reply": None}, "fails", TRUTH.SILENT),
         ({"reply": SENT + 2.9}, "fails", TRUTH.ANSWERED_LATE),
-        ({"walks": (SENT - 3, SENT + 3)}, "is refused", TRUTH.WALKS),
+        ({"walks": (SENT - 3, SENT + 3)}, "is rejected", TRUTH.WALKS),
         ({"walks": (SENT + 0.3, SENT + 1.5)}, "fails", TRUTH.WALKED_SHORTLY),
         ({"walks": (SENT + 1.0, END)}, "fails", TRUTH.WALKED_ON),
         ({"imu_until": SENT - 2}, "fails", TRUTH.NO_SAMPLES),
@@ -119,13 +119,13 @@ def test_where_something_was_on_its_way_either_end_is_right(meanwhile: Any) -> N
 @pytest.mark.parametrize(
     ("message", "next_step"),
     [
-        (f"bias {mean(0.5)}, 300 samples", "Samples of before are in it"),
-        (f"bias {mean(0.0)}, 150 samples", "Samples of before are in it"),
+        (f"bias {mean(0.5)}, 300 samples", "This mean includes earlier samples"),
+        (f"bias {mean(0.0)}, 150 samples", "This mean includes earlier samples"),
         ("bias 0.01 0.02 9.81, 150 samples", "These are accelerations"),
         ("bias 1.55 -1.24 1.86, 155 samples", "These are the sums"),
         ("bias 0.573 -0.458 0.688, 150 samples", "These are degrees"),
-        ("bias -0.010 0.008 -0.012, 150 samples", "The signs are the wrong way round"),
-        ("bias 0.010 -0.008 0.012, 150 samples", "Round later"),
+        ("bias -0.010 0.008 -0.012, 150 samples", "The signs are inverted"),
+        ("bias 0.010 -0.008 0.012, 150 samples", "Write more decimals"),
     ],
 )
 def test_a_wrong_bias_is_told_what_kind_of_mean_it_is(message: str, next_step: str) -> None:
@@ -155,10 +155,10 @@ def test_a_list_of_guesses_is_no_bias() -> None:
     ("messages", "next_step"),
     [
         ([published(*BIAS, frame="")], "Set header.frame_id"),
-        ([published(*BEFORE)], "Samples of before are in it"),
+        ([published(*BEFORE)], "This mean includes earlier samples"),
         ([published(0.0104, -0.008, 0.012)], "Compute the means once"),
         ([published(*BIAS), published(*BIAS)], "Publish once"),
-        ([], "Make the publisher of imu_bias"),
+        ([], "Create the publisher of imu_bias"),
     ],
 )
 def test_each_success_publishes_its_means_once(messages: list[ev.Event], next_step: str) -> None:
@@ -168,14 +168,17 @@ def test_each_success_publishes_its_means_once(messages: list[ev.Event], next_st
 def test_a_calibration_that_fails_publishes_nothing() -> None:
     run = calibration("the robot walked", published(*BIAS), success=False, walks=(SENT + 1.0, END))
     failure = failure_of(MODEL.ends_right(TRUTH.WALKED_ON).judge, run)
-    assert failure.expected.startswith("nothing on imu_bias")
+    assert failure.expected.startswith("no message on imu_bias")
 
 
 @pytest.mark.parametrize(
     ("silence", "next_step"),
     [
-        ((SENT + 0.5, ANSWERED - 0.5), "The timer gets no turn while the callback of calibrate_imu waits"),
-        ((3.0, 6.0), "The timer of the heartbeat must go on as long as the node runs"),
+        (
+            (SENT + 0.5, ANSWERED - 0.5),
+            "The timer's callback cannot run while the callback of calibrate_imu blocks",
+        ),
+        ((3.0, 6.0), "The heartbeat's timer must run as long as the node"),
     ],
 )
 def test_a_gap_is_explained_by_the_request_that_was_at_work(
@@ -186,7 +189,7 @@ def test_a_gap_is_explained_by_the_request_that_was_at_work(
 
 def test_a_number_of_thousands_of_digits_is_no_count() -> None:
     run = calibration("mean 0.010 -0.008 0.012 of " + "9" * 5000)
-    assert "Put the number of samples" in failure_of(MODEL.tells_the_count.judge, run).help
+    assert "Write the number of averaged samples" in failure_of(MODEL.tells_the_count.judge, run).help
 
 
 def test_numbers_are_read_as_they_are_written() -> None:

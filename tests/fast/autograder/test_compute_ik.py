@@ -69,15 +69,15 @@ def test_each_of_the_two_solutions_is_on_its_side():
     above = (DIRECTION + INSIDE, -ELBOW)
     require_hit(answer(*above, elbow_up=True))
     require_side(answer(*above, elbow_up=True))
-    with pytest.raises(Failure, match="the elbow is above it"):
+    with pytest.raises(Failure, match="the elbow is above that line"):
         require_side(answer(*above, elbow_up=False))
-    with pytest.raises(Failure, match="the elbow is below it"):
+    with pytest.raises(Failure, match="the elbow is below that line"):
         require_side(answer(SHOULDER, ELBOW, elbow_up=True))
 
 
 @pytest.mark.parametrize("shoulder", [math.inf, math.nan])
 def test_an_angle_that_is_none_has_no_side(shoulder):
-    with pytest.raises(Failure, match="which is nowhere"):
+    with pytest.raises(Failure, match="two finite angles"):
         require_side(answer(shoulder, ELBOW, elbow_up=True))
 
 
@@ -95,23 +95,23 @@ def test_two_millimetres_are_too_many():
     ("shoulder", "elbow", "advice"),
     [
         (math.degrees(SHOULDER), math.degrees(ELBOW), "degrees"),
-        (SHOULDER, SHOULDER + ELBOW, "counted from the upper arm"),
+        (SHOULDER, SHOULDER + ELBOW, "relative to the upper arm"),
         (SHOULDER, math.pi - ELBOW, "angle between the links"),
         (SHOULDER, math.pi + ELBOW, "angle between the links"),
-        (SHOULDER, -ELBOW, "belong to different sides"),
+        (SHOULDER, -ELBOW, "belong to different solutions"),
         (-SHOULDER, -ELBOW, "count clockwise"),
-        (ELBOW, SHOULDER, "exchanged in the response"),
+        (ELBOW, SHOULDER, "are swapped"),
         (math.pi / 2 - DIRECTION - INSIDE, ELBOW, "atan2(y, x)"),
         (SHOULDER + math.pi, ELBOW, "all four quadrants"),
         (round(SHOULDER, 2), round(ELBOW, 2), "leave out round()"),
         (DIRECTION, ELBOW, "The shoulder equals the direction to the target, 0.6435: subtract the angle"),
-        (DIRECTION, -ELBOW, "subtract the angle that the bent elbow adds"),
-        (math.nan, ELBOW, "not a number"),
-        (math.inf, -math.inf, "not a number"),
-        (1e308, 1e308, "not a number"),
-        (1e308, -1e308, "Put the angles back in"),
+        (DIRECTION, -ELBOW, "subtract the angle between that direction and the upper arm"),
+        (math.nan, ELBOW, "NaN or infinite"),
+        (math.inf, -math.inf, "NaN or infinite"),
+        (1e308, 1e308, "NaN or infinite"),
+        (1e308, -1e308, "Check your angles"),
         (0.0, 0.0, "as in a new response"),
-        (1.0, 1.0, "Put the angles back in"),
+        (1.0, 1.0, "Check your angles"),
     ],
 )
 def test_the_advice_names_the_mistake(shoulder, elbow, advice):
@@ -126,7 +126,7 @@ def test_an_answer_for_the_default_lengths_is_recognised():
     assert "upper_arm_length" in failure.value.help
 
 
-@pytest.mark.parametrize(("code", "advice"), [(0, "constants"), (-31, "farthest")])
+@pytest.mark.parametrize(("code", "advice"), [(0, "constants"), (-31, "up to their sum")])
 def test_a_code_that_is_none_is_told_from_a_wrong_one(code, advice):
     with pytest.raises(Failure) as failure:
         require_hit(answer(SHOULDER, ELBOW, error_code=code))
@@ -143,12 +143,12 @@ def sides(run_below, run_above):
 def test_an_elbow_that_is_always_on_one_side_is_told_from_one_that_is_turned_round():
     below, above = (SHOULDER, ELBOW), (DIRECTION + INSIDE, -ELBOW)
     assert sides(below, below).startswith(
-        "With elbow_up false the elbow was also below: elbow_up is not used."
+        "With elbow_up false the elbow was also below: elbow_up has no effect."
     )
     assert sides(above, above).startswith(
-        "With elbow_up true the elbow was also above: elbow_up is not used."
+        "With elbow_up true the elbow was also above: elbow_up has no effect."
     )
-    assert "the wrong way round" in sides(above, below)
+    assert "the opposite effect" in sides(above, below)
     assert require_side(answer(*below), answer(*above, elbow_up=True))
 
 
@@ -159,7 +159,8 @@ def test_only_shoulder_is_the_frame_of_the_arm(frame):
         MODEL.refuses_other_frames.judge(run(answer(SHOULDER, ELBOW, frame=frame)))
     assert (
         failure.value.help
-        == f"{frame!r} is not 'shoulder'{either}: refuse everything else, before computing."
+        == f"{frame!r} is not 'shoulder'{either}: before computing, return FRAME_TRANSFORM_FAILURE "
+        "for every other frame."
     )
 
 
@@ -200,7 +201,7 @@ def test_a_length_that_was_refused_is_not_used():
 @pytest.mark.parametrize("length", [0.0, -0.25, math.nan])
 def test_with_a_length_that_is_none_any_answer_will_do(length):
     asked = run(answer(1.0, 1.0), lengths=(length,))
-    assert MODEL.answers_every_call.judge(asked) == {"with lengths that are none": 1}
+    assert MODEL.answers_every_call.judge(asked) == {"with invalid lengths": 1}
     assert not MODEL.reaches_the_point.judge(asked)
 
 

@@ -36,16 +36,16 @@ def failure_of(check, file, report):
 
 def test_a_field_in_another_part_asks_for_the_separator():
     told = failure("goal_has_its_fields", goal=part({}), result=part(GOAL), feedback=part({}))
-    assert told.help == "`pose` is in the result. Is a --- missing or misplaced?"
+    assert told.help == "`pose` is in the result: check whether a --- is missing or misplaced."
     without_tolerance = {name: GOAL[name] for name in ("pose",)}
     told = failure("goal_has_its_fields", goal=part(without_tolerance), result=part(GOAL), feedback=part({}))
-    assert told.help == "`tolerance` is in the result. Is a --- missing or misplaced?"
+    assert told.help == "`tolerance` is in the result: check whether a --- is missing or misplaced."
 
 
 def test_a_constant_in_another_part_asks_for_the_separator_too():
     none = {"NONE": {"type": "uint16", "value": 0}}
     told = failure("error_codes_have_names", goal=part(GOAL), result=part(RESULT), feedback=part({}, none))
-    assert told.help == "`NONE` is in the feedback. Is a --- missing or misplaced?"
+    assert told.help == "`NONE` is in the feedback: check whether a --- is missing or misplaced."
 
 
 def test_a_missing_line_is_given():
@@ -66,8 +66,8 @@ def test_a_field_of_another_name_is_to_be_renamed():
 @pytest.mark.parametrize(
     ("fields", "reason"),
     [
-        ({"pose": "geometry_msgs/Pose"}, "in which frame"),
-        ({"tolerance": "float64"}, "float64 is another type"),
+        ({"pose": "geometry_msgs/Pose"}, "the frame of the numbers is unknown"),
+        ({"tolerance": "float64"}, "float64 is a different type"),
     ],
 )
 def test_a_wrong_type_is_told_what_it_lacks(fields, reason):
@@ -83,16 +83,21 @@ def test_a_constant_of_another_value():
 
 def test_a_field_too_many_is_to_be_removed():
     told = failure("result_has_its_fields", result=part(RESULT | {"success": "bool"}))
-    assert told.help.startswith("Remove `success`")
+    assert told.help.startswith("Remove the field `success`")
 
 
 @pytest.mark.parametrize(
     ("line", "text", "expected", "next_step"),
     [
         (2, "float tolerance # m", "float64", "Change line 2 to “float32 tolerance”."),
-        (2, "float depth", "float64", "Change line 2. What belongs there: float64."),
-        (0, "", "at most 200", "Change the file. What it needs: at most 200."),
-        (0, "", "1: it is request --- response", "Put 1 of these lines into it: it is request --- response."),
+        (2, "float depth", "float64", "Change line 2. Expected: float64."),
+        (0, "", "at most 200", "Change the file. Expected: at most 200."),
+        (
+            0,
+            "",
+            "1: it is request --- response",
+            "Put 1 of these lines into the file: it is request --- response.",
+        ),
     ],
 )
 def test_what_the_build_refuses_is_told_with_what_to_write(line, text, expected, next_step):

@@ -118,13 +118,13 @@ def test_four_children_in_order_are_a_fetch() -> None:
 
 
 def test_an_end_before_that_of_the_last_child_leaves_it_at_work() -> None:
-    assert "still at work" in failure("fetches", fetch(1.0, 9.0, SUCCEEDED), *FOUR).observed
+    assert "still active" in failure("fetches", fetch(1.0, 9.0, SUCCEEDED), *FOUR).observed
 
 
 def test_two_children_at_once_are_no_fetch() -> None:
     early = [*FOUR[:2], child(3, walk(HOME), 5.0, 7.4), FOUR[3]]
     assert (
-        "while pick_and_place was still at work"
+        "while pick_and_place was still active"
         in failure("fetches", fetch(1.0, 9.6, SUCCEEDED), *early).observed
     )
 
@@ -137,14 +137,14 @@ def test_giving_up_before_the_grasp() -> None:
     ("parts", "observed"),
     [
         ([fetch(1.0, 5.3, ABORTED, "too tired"), *GAVE_UP], "error_msg: 'too tired'"),
-        ([fetch(1.0, 5.0, ABORTED, "battery"), *GAVE_UP], "still at work"),
-        ([fetch(1.0, 3.3, ABORTED, "battery"), *GAVE_UP[:3]], "the end of fetch, ABORTED"),
+        ([fetch(1.0, 5.0, ABORTED, "battery"), *GAVE_UP], "still active"),
+        ([fetch(1.0, 3.3, ABORTED, "battery"), *GAVE_UP[:3]], "the result of fetch, ABORTED"),
         (
             [fetch(1.0, 5.3, ABORTED, "battery"), *GAVE_UP[:3], child(2, walk(HOME), 2.9, 5.2)],
             "while navigate_to_pose",
         ),
-        ([fetch(1.0, 5.3, ABORTED, "battery"), *GAVE_UP, cancel(3.5, 2)], "a request to cancel it"),
-        ([fetch(1.0, 5.3, ABORTED, "battery"), drop(2.0, subscriptions=0), *GAVE_UP[1:]], "none"),
+        ([fetch(1.0, 5.3, ABORTED, "battery"), *GAVE_UP, cancel(3.5, 2)], "a cancel request"),
+        ([fetch(1.0, 5.3, ABORTED, "battery"), drop(2.0, subscriptions=0), *GAVE_UP[1:]], "no subscription"),
     ],
     ids=["no reason", "too early", "not home", "home too early", "home is canceled", "no subscription"],
 )
@@ -159,15 +159,15 @@ def test_a_battery_that_never_dropped_proves_nothing() -> None:
 
 def test_a_fetch_that_ends_before_the_battery_drops_was_not_under_way() -> None:
     early = failure("gives_up_before_the_grasp", fetch(1.0, 2.5, SUCCEEDED), child(1, walk(TABLE), 1.2, 3.1))
-    assert "SUCCEEDED while navigate_to_pose was still at work" in early.observed
+    assert "SUCCEEDED while navigate_to_pose was still active" in early.observed
 
 
 def test_a_cancel_goes_down_and_the_child_ends_first() -> None:
     asked, at_work = [canceled_fetch(2.0), cancel(2.1)], child(1, walk(TABLE), 1.2, 3.6, CANCELED)
     judge("cancel_goes_down", fetch(1.0, 3.7, CANCELED), *asked, at_work)
-    assert "still at work" in failure("cancel_goes_down", fetch(1.0, 2.3, CANCELED), *asked, at_work).observed
+    assert "still active" in failure("cancel_goes_down", fetch(1.0, 2.3, CANCELED), *asked, at_work).observed
     left = [canceled_fetch(2.0), child(1, walk(TABLE), 1.2, None)]
-    assert failure("cancel_goes_down", fetch(1.0, 2.3, CANCELED), *left).observed == "none"
+    assert failure("cancel_goes_down", fetch(1.0, 2.3, CANCELED), *left).observed == "no request"
 
 
 @pytest.mark.parametrize(
@@ -214,7 +214,7 @@ def reporting(event: Any, forces: dict[Any, float]) -> Any:
 def test_a_child_is_canceled_for_a_reason_only() -> None:
     at_work = [cancel(2.1), child(1, walk(TABLE), 1.2, 3.6, CANCELED)]
     seen = failure("cancel_goes_down", fetch(1.0, 6.0, CANCELED), canceled_fetch(2.5), *at_work)
-    assert "to come to its own end" in seen.expected
+    assert "to end by itself" in seen.expected
 
 
 def test_a_cancel_in_the_last_moment_may_come_too_late() -> None:

@@ -51,7 +51,7 @@ def switch(call: str, on: bool, t: float, *, success: bool = True, message: str 
 def test_motors_that_stay_on_are_explained_by_what_came_on_motor_power(events: list[Any], seen: str) -> None:
     run = run_of(*truth(), *events, *switch("off", False, 4.0))
     failure = failure_of(MOTORS.grants_power_off.require, run.call("off"))
-    assert failure.help.startswith(f"On motor_power the grader saw {seen}")
+    assert failure.help.startswith(f"On motor_power the grader received {seen}")
 
 
 def statuses(*said_on: bool) -> list[Any]:
@@ -70,12 +70,16 @@ def off_from_5_to_9(t: float) -> bool:
 @pytest.mark.parametrize(
     ("events", "call", "next_step"),
     [
-        (statuses(True, True, True), "status 1", "get_status never changed, though the robot's motors did."),
-        (statuses(False, True, False), "status 0", "get_status said the opposite of the robot"),
+        (
+            statuses(True, True, True),
+            "status 1",
+            "get_status always reported the same, although the robot's motors were switched.",
+        ),
+        (statuses(False, True, False), "status 0", "get_status reported the opposite of the robot's state"),
         (
             [*statuses(True, True, True), *switch("on", True, 2.0)],
             "status 1",
-            "get_status followed your last request, not the robot.",
+            "get_status reported the last request to enable_motors, not the robot's state.",
         ),
         (
             [peers(0.9, 0, 0), topics(), *statuses(True, True, True)],
@@ -108,10 +112,14 @@ def test_a_wrong_status_is_explained_by_the_answers_so_far(
         (
             lambda t: True,
             "not while it walks",
-            "Nothing was switched off, and the message refuses, but success is true",
+            "Nothing was switched off, but success is true: set response.success = False, which fits",
         ),
-        (lambda t: True, "", "Nothing was switched off, but success is true"),
-        (lambda t: t < 4.0, "power off", "Answer success: false, before you publish"),
+        (
+            lambda t: True,
+            "",
+            "Nothing was switched off, but success is true: set response.success = False, and give",
+        ),
+        (lambda t: t < 4.0, "power off", "If data is false and the last robot_state.mode is WALKING"),
     ],
 )
 def test_a_refusal_that_says_success_is_told_from_none(motors: Any, message: str, next_step: str) -> None:

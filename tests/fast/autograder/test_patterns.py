@@ -42,7 +42,7 @@ def test_each_right_answer_is_a_point_whatever_else_is_missing(answered):
 
 def test_what_is_not_answered_is_named():
     seen = verdicts(*LINES[:3])
-    assert "none for 4, 5" in seen["answers_everything"].observed
+    assert "no line for 4, 5" in seen["answers_everything"].observed
     assert "Add a line 4:" in seen["answers_everything"].help
     assert (seen["situation_7"].observed, seen["situation_7"].points) == ("no answer", 0)
 
@@ -50,7 +50,7 @@ def test_what_is_not_answered_is_named():
 def test_nothing_printed_and_another_form_are_told_apart():
     assert "Nothing was printed" in verdicts()["answers_everything"].help
     told = verdicts("1) I say: topic, because of a")["situation_1"]
-    assert "is of another form" in told.help
+    assert "is not in the right form" in told.help
 
 
 def test_an_answer_in_another_form_spoils_no_other():
@@ -61,8 +61,11 @@ def test_an_answer_in_another_form_spoils_no_other():
 
 def test_a_wrong_answer_is_told_what_speaks_against_it():
     seen = verdicts(*LINES[:8], "9 action c", "10 topic c", "11 service c", "12 action c")
-    assert "Which part moves does not matter: being able to cancel does." in seen["situation_9"].help
-    assert "what matters is the yes or no" in seen["situation_11"].help
+    assert (
+        "Which part moves does not matter. What matters is that the step can be cancelled."
+        in seen["situation_9"].help
+    )
+    assert "What matters is whether it is accepted" in seen["situation_11"].help
 
 
 def test_a_number_of_thousands_of_digits_is_no_situation():

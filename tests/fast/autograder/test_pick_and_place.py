@@ -136,31 +136,35 @@ def test_a_sound_fetch_passes(check: str) -> None:
     [
         ("places_the_cup", {"cup": lambda t: (*HOME, cup_at(t)[2])}, "The cup is where it was"),
         ("places_the_cup", {"cup": lambda t: (*cup_at(t)[:2], TABLE)}, ""),
-        ("places_the_cup", {"up": 0.1}, "Lower it until it touches the table"),
+        ("places_the_cup", {"up": 0.1}, "Lower the cup until it touches the table"),
         ("places_the_cup", {"hand": lambda t: cup_at(t)}, "move it back"),
         ("lifts_the_cup", {"cup": lambda t: (*cup_at(t)[:2], TABLE)}, "move it straight up"),
-        ("keeps_the_force", {"force": lambda t: force_at(t, 24.0)}, "A command is an opening, not a force"),
-        ("keeps_the_force", {"force": lambda t: force_at(t, 3.0)}, "A command is an opening, not a force"),
+        ("keeps_the_force", {"force": lambda t: force_at(t, 24.0)}, "is an opening in m, not a force"),
+        ("keeps_the_force", {"force": lambda t: force_at(t, 3.0)}, "is an opening in m, not a force"),
         ("fills_the_result", {"result": {"final_object_pose": PoseStamped()}}, "objects/cup/pose"),
         ("fills_the_result", {"result": {"final_object_pose": stamped((*PLACE, TABLE))}}, "objects/cup/pose"),
         ("fills_the_result", {"result": {"max_grasp_force": 0.0}}, "largest force.y"),
         ("fills_the_result", {"result": {"error_msg": "done"}}, "only when the goal is aborted"),
         ("names_its_stages", {"tell": set_field("stage", "MOVING")}, "constants of PickAndPlace.Feedback"),
-        ("names_its_stages", {"tell": set_field("stage", "moving")}, "each once"),
-        ("stages_are_true", {"tell": set_field("stage", lambda t: stage_at(t + 1.8))}, "when it begins"),
+        ("names_its_stages", {"tell": set_field("stage", "moving")}, "Set feedback.stage once"),
+        (
+            "stages_are_true",
+            {"tell": set_field("stage", lambda t: stage_at(t + 1.8))},
+            "when the stage begins",
+        ),
         ("feedback_is_measured", {"tell": set_field("hand_pose", PoseStamped())}, "r_hand/pose"),
         (
             "feedback_is_measured",
             {"tell": set_field("distance_to_object", 1.0)},
-            "straight distance in x, y and z",
+            "the distance in x, y and z",
         ),
-        ("feedback_is_measured", {"tell": set_field("grasp_force", 10.0)}, "not what the goal asks for"),
+        ("feedback_is_measured", {"tell": set_field("grasp_force", 10.0)}, "not the goal's grasp_force"),
         (
             "percentage_rises",
             {"tell": set_field("percent_complete", lambda t: t / END)},
-            "a percentage, 0 to 100",
+            "from 0 to 100, not a share",
         ),
-        ("percentage_rises", {"tell": set_field("percent_complete", lambda t: 90.0 - t)}, "its own share"),
+        ("percentage_rises", {"tell": set_field("percent_complete", lambda t: 90.0 - t)}, "its own range"),
     ],
 )
 def test_another_fetch_fails_with_what_to_do(check: str, change: dict, words: str) -> None:
@@ -194,7 +198,7 @@ def test_a_lost_cup_ends_with_its_code() -> None:
     assert "why the goal was ABORTED" in failure_of(CHECKS["notices_a_lost_cup"].run, [silent]).expected
     happy = fetched(more=TAKEN, cup=lost)
     assert (
-        "look at r_gripper/wrench in every round"
+        "check force.y of r_gripper/wrench in every round"
         in failure_of(CHECKS["notices_a_lost_cup"].run, [happy]).help
     )
 
@@ -202,10 +206,10 @@ def test_a_lost_cup_ends_with_its_code() -> None:
 @pytest.mark.parametrize(
     ("code", "words"),
     [
-        (PickAndPlace.Result.UNKNOWN_OBJECT, "Is anything of your node served"),
-        (PickAndPlace.Result.GRASP_FAILED, "before it closed"),
+        (PickAndPlace.Result.UNKNOWN_OBJECT, "no callback runs while execute"),
+        (PickAndPlace.Result.GRASP_FAILED, "only when it is open around the cup"),
         (PickAndPlace.Result.DROPPED, "before you lift"),
-        (77, "find out why your server gave up"),
+        (77, "find out why your server aborted it"),
     ],
 )
 def test_a_server_that_gives_up_is_asked_about_its_own_reason(code: int, words: str) -> None:

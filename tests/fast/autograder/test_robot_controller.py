@@ -110,12 +110,12 @@ def test_a_program_that_waits_for_a_dead_server_is_told_so():
     [
         (
             [BOTH, asked(ENABLE, 2.0), asked(ENABLE, 4.0, 4.1), ended(6.0, 1)],
-            "Status 1, although request 2 to enable_motors was answered",
-            "counts like one to the first",
+            "Exit status 1, although request 2 to enable_motors got a response",
+            "use the response to the second request",
         ),
         (
             [BOTH, asked(ENABLE, 2.0, 3.0), asked(ENABLE, 2.5), ended(3.1, 1)],
-            "0.5 s after it",
+            "the retry after 0.5 s",
             "timeout_sec=2.0",
         ),
         (
@@ -127,23 +127,23 @@ def test_a_program_that_waits_for_a_dead_server_is_told_so():
                 said(5.5, "no answer"),
                 ended(6.4, 1),
             ],
-            "It gave up 0.5 s after request 2 to get_status, before the answer came.",
+            "It gave up 0.5 s after request 2 to get_status, before the response came.",
             "timeout_sec=2.0",
         ),
         (
             [BOTH, asked(ENABLE, 2.0, 3.0), asked(ENABLE, 4.0, 5.0), ended(6.0, 1)],
-            "2 requests: the first was answered after 1.0 s",
-            "time.sleep takes none",
+            "2 requests, although the response to the first came after 1.0 s",
+            "during time.sleep no response is processed",
         ),
         (
             [BOTH, ENABLED, asked(STATUS, 3.0, 3.1), PRINTED, ended(3.2, 1)],
-            "Status 1, although both services have answered",
+            "Exit status 1, although both services responded",
             "Return 0 from main()",
         ),
         (
             [BOTH, ENABLED, asked(STATUS, 3.0, 3.1, EMPTY), said(3.2, "no status"), ended(3.3, 1)],
-            "Status 1, although get_status has answered success: true, message: ''.",
-            "also where its message is empty",
+            "Exit status 1, although get_status responded with success: true, message: ''.",
+            "also with an empty message",
         ),
         (
             [BOTH, ENABLED, said(3.0, *TRACEBACK), ended(3.2, 1)],
@@ -171,11 +171,11 @@ def test_a_program_that_gives_up_too_early_is_told_what_it_missed(parts, observe
 @pytest.mark.parametrize(
     ("output", "what_to_do"),
     [
-        (said(3.0, "[INFO] [robot_controller]: Robot status: Motors: ON"), "where a logger writes"),
-        ([], "print(f'Robot status: {response.message}') when get_status has answered"),
-        ([*PRINTED, *PRINTED], "Print once"),
-        ([*asked(STATUS, 2.0, 2.9), *PRINTED, *PRINTED], "remove that request"),
-        (said(3.0, "Robot status: ON", stream="stdout"), "all of it"),
+        (said(3.0, "[INFO] [robot_controller]: Robot status: Motors: ON"), "where loggers write"),
+        ([], "Add print(f'Robot status: {response.message}')"),
+        ([*PRINTED, *PRINTED], "Print only once"),
+        ([*asked(STATUS, 2.0, 2.9), *PRINTED, *PRINTED], "remove_pending_request"),
+        (said(3.0, "Robot status: ON", stream="stdout"), "the whole message"),
     ],
 )
 def test_what_is_wrong_with_the_printed_line(output, what_to_do):
@@ -196,17 +196,19 @@ def test_a_program_in_another_namespace_that_finds_nobody_has_a_slash_too_many()
 def test_a_refusal_that_is_not_looked_at():
     refused, went_on = asked(ENABLE, 2.0, 2.1, REFUSED), asked(STATUS, 2.2, 2.3)
     told = failure("reports_a_refusal", BOTH, refused, went_on, PRINTED, ended(3.2, 0))
-    assert told.observed == "You asked get_status although enable_motors answered success: false."
-    assert told.help == "Look at response.success and return 1."
+    assert (
+        told.observed == "Your client called get_status although enable_motors responded with success false."
+    )
+    assert told.help == "If response.success of enable_motors is false, print the reason and return 1."
 
 
 @pytest.mark.parametrize("status", [2, 3])
 def test_a_refusal_is_exit_status_1_like_every_other_failure(status):
     refused, words = asked(ENABLE, 2.0, 2.1, REFUSED), said(2.2, "the motors stay off")
     told = failure("reports_a_refusal", BOTH, refused, words, ended(2.4, status))
-    assert told.expected == "exit status 1: enable_motors answered success: false"
+    assert told.expected == "exit status 1, because enable_motors responded with success false"
     assert told.observed == f"exit status {status}; the last line on stderr: the motors stay off"
-    assert "2 to 4 are for goals of actions" in told.help
+    assert "2 to 4 are for action goals" in told.help
 
 
 def test_a_status_that_main_does_not_hand_over():
@@ -218,8 +220,8 @@ def test_a_status_that_main_does_not_hand_over():
 @pytest.mark.parametrize(
     ("requests", "observed", "what_to_do"),
     [
-        (1, "Only one request, then it gave up.", "Where is the second try?"),
-        (7, "7 requests", "One retry is allowed"),
+        (1, "1 request, then it gave up", "send the request once more"),
+        (7, "7 requests", "Retry only once"),
     ],
 )
 def test_too_few_and_too_many_requests(requests, observed, what_to_do):
@@ -230,7 +232,7 @@ def test_too_few_and_too_many_requests(requests, observed, what_to_do):
     assert what_to_do in told.help
 
 
-@pytest.mark.parametrize(("second", "what_to_do"), [(2.5, "too early"), (6.5, "too long")])
+@pytest.mark.parametrize(("second", "what_to_do"), [(2.5, "too early"), (6.5, "too late")])
 def test_a_pause_that_is_too_short_or_too_long(second, what_to_do):
     told = failure("asks_once_more", BOTH, asked(ENABLE, 2.0), asked(ENABLE, second), ended(9.0, 1))
     assert what_to_do in told.help
@@ -242,15 +244,15 @@ def test_a_second_request_that_gets_too_little_time(first):
     told = failure(
         "is_not_confused_by_a_late_answer", BOTH, ENABLED, first, asked(STATUS, 5.0), said(5.5, "no"), ends
     )
-    assert told.observed == "it gave up 0.5 s after it"
-    assert "2 s, each time" in told.help
+    assert told.observed == "it gave up 0.5 s after the second request"
+    assert "up to 2 s" in told.help
 
 
 def test_a_refusal_that_is_asked_again():
     refused, again = asked(ENABLE, 2.0, 2.1, REFUSED), asked(ENABLE, 4.0, 4.1, REFUSED)
     told = failure("reports_a_refusal", BOTH, refused, again, said(4.2, "refused"), ended(4.3, 1))
-    assert told.observed == "2 requests: the first was answered after 0.1 s"
-    assert "do not ask again" in told.help
+    assert told.observed == "2 requests, although the response to the first came after 0.1 s"
+    assert "give up without a retry" in told.help
 
 
 def test_the_data_of_the_second_request():
@@ -260,7 +262,7 @@ def test_the_data_of_the_second_request():
         )
     ]
     told = failure("asks_once_more", BOTH, asked(ENABLE, 2.0), second, said(6.0, "silent"), ended(6.1, 1))
-    assert told.observed == "data: false in the second request"
+    assert told.observed == "data: false in the retry"
 
 
 # -- one deadline over everything -------------------------------------------------------------------------------------
@@ -288,8 +290,8 @@ def test_a_deadline_of_10_s_is_kept_also_where_the_program_takes_its_time_to_end
 def test_limits_of_their_own_are_no_deadline():
     with pytest.raises(Failure) as told:
         CHECKS["keeps_one_deadline"].run([run_of(late(12.2, 12.5))])
-    assert told.value.observed == "it gave up after 11.2 s; get_status was asked at 6.3 s and 8.3 s"
-    assert "at most what is left of it" in told.value.help
+    assert told.value.observed == "it gave up after 11.2 s; get_status was called after 6.3 s and 8.3 s"
+    assert "the remaining time as the limit" in told.value.help
 
 
 def test_the_scenario_leaves_no_doubt_whether_there_is_a_deadline():
@@ -323,7 +325,7 @@ def test_a_program_may_look_for_both_servers_at_once_or_in_turn(gave_up):
         ([said(7.1, "nobody is there"), ended(7.3, 1)], "it gave up 6.1 s after its start"),
         (
             [offered(ENABLE), ENABLED, said(7.1, "no get_status"), ended(7.3, 1)],
-            "it gave up 5.0 s after enable_motors had answered",
+            "it gave up 5.0 s after the response of enable_motors",
         ),
     ],
 )

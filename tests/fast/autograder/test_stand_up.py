@@ -76,19 +76,25 @@ def test_a_measured_rise_passes() -> None:
 def test_a_success_in_the_crouch_names_what_raises_the_pelvis() -> None:
     failure = failure_of(MODEL.succeeds.judge, stood_up(lambda t: 0.45))
     assert "0.450 m" in failure.observed
-    assert failure.help.startswith("It never rose: publish a Twist with linear.z")
+    assert failure.help.startswith("The robot never rose: publish a Twist with linear.z")
 
 
 def test_a_success_on_the_way_has_not_settled() -> None:
-    assert "it is at 0.5" in failure_of(MODEL.settles.judge, stood_up(risen(4.5))).observed
+    assert "at 0.5" in failure_of(MODEL.settles.judge, stood_up(risen(4.5))).observed
 
 
 @pytest.mark.parametrize(
     ("phases", "word"),
     [
-        ([(2.2, "rising", 0.0), (3.4, "settling", 99.0), (3.6, "rising", 99.0)], "rising, settling, rising"),
+        (
+            [(2.2, "rising", 0.0), (3.4, "settling", 99.0), (3.6, "rising", 99.0)],
+            "'rising', 'settling', 'rising'",
+        ),
         ([(2.7, "going up", 30.0)], "'going up'"),
-        ([(2.2, "shifting", 0.0), (2.5, "rising", 10.0), (2.8, "settling", 90.0)], "'settling' at 0.5"),
+        (
+            [(2.2, "shifting", 0.0), (2.5, "rising", 10.0), (2.8, "settling", 90.0)],
+            "'settling' while it moved up, at 0.5",
+        ),
     ],
 )
 def test_phases_by_the_clock_are_found(phases: list[tuple[float, str, float]], word: str) -> None:
@@ -99,7 +105,7 @@ def test_phases_by_the_clock_are_found(phases: list[tuple[float, str, float]], w
 @pytest.mark.parametrize("percent", [75.0, 0.4])
 def test_a_percentage_that_is_not_the_share_of_the_height_is_found(percent: float) -> None:
     run = stood_up(risen(3.2), feedback=[(2.1, "shifting", percent), (4.0, "settling", percent)])
-    assert "the share of the height" in failure_of(MODEL.measures_percent.judge, run).expected
+    assert "by that share of its way" in failure_of(MODEL.measures_percent.judge, run).expected
 
 
 def test_the_percentage_may_fall_to_shifting_alone() -> None:
@@ -147,13 +153,13 @@ def test_a_goal_for_a_standing_robot_wants_the_code_and_a_sentence() -> None:
 
     code = {"error_code": StandUp.Result.ALREADY_STANDING}
     assert MODEL.says_that_it_stands.judge(ended(status=ABORTED, **code, error_msg="it stands"))
-    assert "no success" in failure_of(MODEL.says_that_it_stands.judge, ended()).help
+    assert "has not succeeded" in failure_of(MODEL.says_that_it_stands.judge, ended()).help
     assert "empty" in failure_of(MODEL.says_why_it_aborted.judge, ended(status=ABORTED, **code)).observed
     without = ended(status=ABORTED, error_msg="it stands")
     assert "ALREADY_STANDING" in failure_of(MODEL.says_that_it_stands.judge, without).expected
 
 
-@pytest.mark.parametrize(("end", "word"), [(9.0, "after 7.0 s"), (17.5, "after 15.5 s")])
+@pytest.mark.parametrize(("end", "word"), [(9.0, "ABORTED after 7.0 s"), (17.5, "ABORTED after 15.5 s")])
 def test_the_time_limit_is_neither_early_nor_late(end: float, word: str) -> None:
     run = stood_up(lambda t: 0.45, end=end, status=ABORTED, error_msg="too long")
     assert failure_of(MODEL.keeps_the_limit.judge, run).observed == word
@@ -162,7 +168,7 @@ def test_the_time_limit_is_neither_early_nor_late(end: float, word: str) -> None
 def test_a_success_after_the_time_limit_comes_too_late() -> None:
     failure = failure_of(MODEL.keeps_the_limit.judge, stood_up(risen(16.5), end=17.5))
     assert "ABORTED" in failure.expected
-    assert failure.help.startswith("12 s are over")
+    assert failure.help.startswith("12 s after acceptance")
 
 
 def test_silence_on_the_floor_is_no_rejection() -> None:
@@ -181,7 +187,8 @@ def test_the_time_limit_has_no_code() -> None:
 
 
 @pytest.mark.parametrize(
-    ("later", "help"), [(0.60, "Publish a zero Twist as soon"), (0.45, "Do not crouch again")]
+    ("later", "help"),
+    [(0.60, "Publish a zero Twist before you end the goal"), (0.45, "Do not make the robot crouch again")],
 )
 def test_a_cancel_leaves_the_pelvis_where_it_is(later: float, help: str) -> None:
     def stays(height: float) -> Transcript:
@@ -204,9 +211,13 @@ def test_a_cancel_leaves_the_pelvis_where_it_is(later: float, help: str) -> None
             2.1,
             "compare odom's height",
         ),
-        ({"error_code": StandUp.Result.FELL, "error_msg": "it fell"}, 4.0, "A push is no fall"),
+        (
+            {"error_code": StandUp.Result.FELL, "error_msg": "it fell"},
+            4.0,
+            "had not fallen, only been pushed",
+        ),
         ({"error_msg": "too long"}, 14.1, "with the pelvis at 0.45 m"),
-        ({"error_msg": "somebody pushes"}, 4.0, "Nothing was wrong with the robot"),
+        ({"error_msg": "somebody pushes"}, 4.0, "The robot could have risen"),
     ],
 )
 def test_an_abort_is_explained_by_its_code_and_its_time(
