@@ -102,7 +102,7 @@ def test_a_movement_that_is_acknowledged_has_not_happened(chapter: Executed) -> 
 
 def test_walking_takes_more_power_than_standing(chapter: Executed) -> None:
     watts = [float(number) for number in re.findall(r"(\d+) W", chapter.text("battery-power"))]
-    assert watts[1] > 1.5 * watts[0] > 30
+    assert watts[1] > 2.2 * watts[0] > 60
     assert "times the power of standing" in chapter.text("battery-power")
 
 
