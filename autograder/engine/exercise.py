@@ -135,7 +135,7 @@ def load_exercise(name: str, *, hidden: bool) -> Exercise:
     checks = visible = checks_in(exercise_module(name, CHECKS))
     has_hidden = (folder / f"{HIDDEN}.py").exists()
     if hidden and has_hidden:
-        also = checks_in(exercise_module(name, HIDDEN), but=visible)
+        also = checks_in(exercise_module(name, HIDDEN), excluded=visible)
         checks = visible + [replace(check, hidden=True) for check in also]
     statement = clauses_in(folder / f"{name}.ipynb")
     checks = [replace(check, promise=in_words(statement, check.clauses)) for check in checks]

@@ -10,7 +10,7 @@ from functools import partial
 from autograder.authoring import Failure, Obligation, ev, expect, how_to_give_up, obligation, shown, whole_run
 from autograder.authoring.walking import client_ends
 from autograder.authoring.walking import client_obligations as owed
-from autograder.authoring.walking.client_life import CANCELED, SUCCEEDED, Cause, End
+from autograder.authoring.walking.client_run import CANCELED, SUCCEEDED, Cause, End
 
 from .life import BATTERY, KNOWN, LIMIT, GuardLife, about_level, guards, is_percentage
 
@@ -54,7 +54,7 @@ def sends_it_only_when_it_may(life: GuardLife) -> str:
 
 
 def _require_cancels(life: GuardLife) -> list[Cause]:
-    return owed.asks_to_cancel_in_time(life, _needless, _how_to_cancel)
+    return owed.require_cancels_in_time(life, _needless, _how_to_cancel)
 
 
 def _needless(life: GuardLife, t: float) -> Failure:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from autograder.authoring import Call, Transcript, ev, shown_fields, why_nothing_is_heard
+from autograder.authoring import Call, Transcript, ev, shown_fields, why_no_message_arrives
 
 from . import truth
 from .message import TOLERANCE, is_near, whole_numbers
@@ -57,7 +57,7 @@ def advice_on_failing(call: Call, story: Story, published: int) -> str:
     """Return what to do about a calibration that should have succeeded; imu came `published` times meanwhile."""
     said = shown_fields(call.response, "message")
     for topic in ("imu", "robot_state"):
-        if deaf := why_nothing_is_heard(call.run, topic):
+        if deaf := why_no_message_arrives(call.run, topic):
             return deaf
     waited, asked = call.latency, status_requests(call)
     if asked and story.situation == truth.SAYS_NO:

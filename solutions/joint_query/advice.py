@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Sequence
 
-from autograder.authoring import DELIVERY, JOINTS, Call, ev, known_messages, same, why_nothing_is_heard
+from autograder.authoring import DELIVERY, JOINTS, Call, ev, known_messages, same, why_no_message_arrives
 from autograder.authoring.evidence.fields import ROUNDING
 
 from .truth import SILENCE, Positions, is_at, positions_by_name, robot_joints
@@ -43,7 +43,7 @@ def contains_name(message: str, name: str) -> bool:
 
 def not_heard(call: Call) -> str:
     """Return why no joint_states reach the node, as far as the grader saw."""
-    deaf = why_nothing_is_heard(call.run, "joint_states")
+    deaf = why_no_message_arrives(call.run, "joint_states")
     return deaf or "Subscribe to joint_states with qos_profile_sensor_data: the robot publishes best effort."
 
 

@@ -14,7 +14,7 @@ from autograder.authoring import (
     calls,
     ev,
     known_messages,
-    lesson_on_hearing,
+    lesson_on_subscribing,
     obligation,
     shown_fields,
     whole_run,
@@ -49,7 +49,7 @@ def finds_the_joints(call: Call) -> str | None:
         expected=f"success: true for {asked(call)}, which the robot has",
         observed=shown_fields(call.response, "success", "message"),
         help=advice.not_heard(call) if deaf else advice.on_refusal(call),
-        see=lesson_on_hearing(call.run, "joint_states"),
+        see=lesson_on_subscribing(call.run, "joint_states"),
     )
     return "without a message" if deaf else truth.situation(call)
 
@@ -74,7 +74,7 @@ def _require_heard(call: Call) -> None:
         expected="an answer from the robot's joint_states",
         observed=f"{described(joints.name, joints.position)}, although no joint_states had reached your node",
         help=advice.not_heard(call),
-        see=lesson_on_hearing(call.run, "joint_states"),
+        see=lesson_on_subscribing(call.run, "joint_states"),
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from autograder.authoring import DELIVERY, Call, ev, shown, why_nothing_is_commanded, why_nothing_is_heard
+from autograder.authoring import DELIVERY, Call, ev, shown, why_no_command_arrives, why_no_message_arrives
 
 A_WAIT = 0.7  # s; an answer that takes longer waited for the robot
 LEAST_WAIT = 1.8  # s before an answer may say that the robot did not confirm: 2 s, less what clocks differ by
@@ -20,7 +20,7 @@ def on_status(call: Call, wanted: str) -> str:
         return "success tells whether the question could be answered, not whether the motors are on: set it to True."
     if response.message.strip().rstrip(".").lower() == wanted.lower():
         return f"The text is compared letter by letter, as a program would: {wanted!r}."
-    if deaf := why_nothing_is_heard(call.run, "robot_state"):
+    if deaf := why_no_message_arrives(call.run, "robot_state"):
         return f"{deaf} {_FROM_THE_LAST}"
     if history := _history_of_the_status(call):
         return f"{history} {_FROM_THE_LAST}"
@@ -57,7 +57,7 @@ def on_power(call: Call) -> str:
     """Say what the grader saw on motor_power."""
     run, wanted = call.run, call.request.data
     publish = f"Publish Bool(data=request.data) on motor_power when {question(call)} is granted."
-    if seen := why_nothing_is_commanded(run, "motor_power", before=call.answered.t):
+    if seen := why_no_command_arrives(run, "motor_power", before=call.answered.t):
         return f"On motor_power the grader saw {seen}. {publish}"
     sent = [other.t for other in run.all(ev.ServiceCalled) if other.service == call.service]
     later = min((t for t in sent if t > call.sent.t), default=math.inf)
@@ -87,7 +87,7 @@ def on_refusing(call: Call) -> str:
         if not call.response.message.strip():
             return "Nothing was switched off, but success is true: set response.success = False, and say why."
         return "Nothing was switched off, and the message refuses, but success is true: set response.success = False."
-    if deaf := why_nothing_is_heard(call.run, "robot_state"):
+    if deaf := why_no_message_arrives(call.run, "robot_state"):
         return f"{deaf} Without it the node cannot know that the robot walks."
     return "Answer success: false, before you publish, when data is false and the last robot_state.mode is WALKING."
 

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from autograder.authoring import Goal
 from autograder.authoring.walking.objections import objection
-from autograder.authoring.walking.obligations.tells import seconds
+from autograder.authoring.walking.obligations.reporting import seconds
 
 ARMS = ("l", "r")
 AT_THE_END = 0.001  # rad; what is so near the end of a range may be rounded

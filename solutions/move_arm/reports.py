@@ -15,7 +15,7 @@ from autograder.authoring import (
     expect,
     require_good_feedback_rate,
 )
-from autograder.authoring.walking.life import ended_at, interrupted, left_alone
+from autograder.authoring.walking.life import ended_at, interrupted, was_not_awaited
 from autograder.authoring.walking.reports import require_error_code
 
 from .endings import GOAL_TOLERANCE
@@ -103,7 +103,7 @@ def names_the_joint(goal: Goal) -> str | None:
 
 def _has_time_for_feedback(goal: Goal) -> bool:
     """Return whether an accepted goal lasted, and was not cut short before there was much to report."""
-    if not is_carried_out(goal) or left_alone(goal) or interrupted(goal):
+    if not is_carried_out(goal) or was_not_awaited(goal) or interrupted(goal):
         return False
     return ends_by_itself(goal) or ended_at(goal) >= goal.accepted_at + MIN_DURATION
 

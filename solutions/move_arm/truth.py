@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from autograder.authoring import Goal, RobotRecord, ev, why_nothing_is_heard
+from autograder.authoring import Goal, RobotRecord, ev, why_no_message_arrives
 
 from .plan import Plan, errors, largest
 
@@ -17,7 +17,7 @@ _ACCEPT = (
 
 def require_accepted(goal: Goal) -> Goal:
     """Require that the server accepted the goal."""
-    deaf = (why_nothing_is_heard(goal.run, topic) for topic in ("joint_limits", "joint_states"))
+    deaf = (why_no_message_arrives(goal.run, topic) for topic in ("joint_limits", "joint_states"))
     return goal.require_accepted(next(filter(None, deaf), _ACCEPT))
 
 

@@ -9,7 +9,7 @@ from collections import Counter
 from autograder.authoring import ABORTED, SUCCEEDED, Goal, ev, expect, goals, not_shown, obligation, whole_run
 from autograder.authoring.walking import life, objections
 from autograder.authoring.walking.objections import accepting, objection, rejects
-from autograder.authoring.walking.obligations import cancels, ends, tells, walks
+from autograder.authoring.walking.obligations import cancels, ends, reporting, walks
 from autograder.authoring.walking.path import STRIDE, length_walked, walking_speed
 from autograder.authoring.walking.planar import error
 from autograder.authoring.walking.reports import require_error_code
@@ -84,8 +84,8 @@ stops_when_canceled = obligation(17, of=goals)(cancels.stops_when_canceled)
 stands_without_a_goal = obligation(4, 16, 17, of=whole_run)(walks.stands_without_a_goal)
 gives_way = obligation(18, of=goals)(ends.gives_way)
 tells_a_fall = obligation(19, of=goals, see="07_cancel_and_preempt#fall-why")(ends.tells_a_fall)
-names_no_error = obligation(20, of=goals)(tells.names_no_error)
-says_why_it_aborted = obligation(20, of=goals)(tells.says_why_it_aborted)
+names_no_error = obligation(20, of=goals)(reporting.names_no_error)
+says_why_it_aborted = obligation(20, of=goals)(reporting.says_why_it_aborted)
 
 
 @obligation(5, of=goals, see="08_navigation#zero-why")
@@ -93,7 +93,7 @@ def succeeds_where_it_stands(goal: Goal) -> str | None:
     """A goal equal to the present pose SUCCEEDS within 4 s, and the robot does not walk"""
     distance, turn = error(goal.run.robot_at(goal.sent.t), goal)
     is_there = distance <= HERE and turn <= HERE and life.began_at_rest(goal)
-    if not is_there or not life.is_undisturbed(goal) or life.left_alone(goal):
+    if not is_there or not life.is_undisturbed(goal) or life.was_not_awaited(goal):
         return None
     require_arrival(goal)
     end = goal.require_result(SUCCEEDED)
@@ -156,7 +156,7 @@ def stands_after_the_limit(goal: Goal) -> str | None:
     """After TIMEOUT the robot stands still, also when it is let go"""
     if not _timed_out(goal) or not operated(goal, "hold"):
         return None
-    require_stopped(goal.run, goal.run.told("take_over", velocity=None).t, event="being let go")
+    require_stopped(goal.run, goal.run.last_command("take_over", velocity=None).t, event="being let go")
     return "let go"
 
 
@@ -167,11 +167,11 @@ def _timed_out(goal: Goal) -> bool:
 
 # -- how it goes, and what the feedback says of it --------------------------------------------------------------------
 
-feedback_at_5_hz = obligation(6, of=goals, see="06_walk_to_a_pose#settle-intro")(tells.feedback_at_5_hz)
+feedback_at_5_hz = obligation(6, of=goals, see="06_walk_to_a_pose#settle-intro")(reporting.feedback_at_5_hz)
 feedback_ends_with_the_goal = obligation(6, of=goals, see="07_cancel_and_preempt#m13-why")(
-    tells.feedback_ends_with_the_goal
+    reporting.feedback_ends_with_the_goal
 )
-feedback_is_true = obligation(7, of=goals, see="08_navigation#action-intro")(tells.feedback_is_true)
+feedback_is_true = obligation(7, of=goals, see="08_navigation#action-intro")(reporting.feedback_is_true)
 
 
 @obligation(3, of=legs, see="08_navigation#why")
@@ -255,7 +255,7 @@ def tells_its_time(goal: Goal) -> str | None:
     if not reports or reports[-1].t - start < 2 * TIME_SLACK:
         return None
     for feedback in reports:
-        claimed, true = tells.seconds(feedback.feedback.navigation_time), feedback.t - start
+        claimed, true = reporting.seconds(feedback.feedback.navigation_time), feedback.t - start
         expect(
             abs(claimed - true) <= TIME_SLACK,
             expected=f"navigation_time near {true:.1f} s, since the goal was accepted",
@@ -272,7 +272,7 @@ def tells_its_time(goal: Goal) -> str | None:
 def estimates_the_time(leg: Leg) -> str:
     """estimated_time_remaining is positive under way, and right within a factor of 2 half way"""
     for feedback in under_way(leg.goal):
-        estimate = tells.seconds(feedback.feedback.estimated_time_remaining)
+        estimate = reporting.seconds(feedback.feedback.estimated_time_remaining)
         expect(
             estimate > 0,
             expected="estimated_time_remaining above 0 while the robot is under way",
@@ -281,7 +281,7 @@ def estimates_the_time(leg: Leg) -> str:
             "for the last second, and a speed of 0 divides by zero.",
             at=feedback.t,
         )
-    estimate = tells.seconds(told_half_way(leg).feedback.estimated_time_remaining)
+    estimate = reporting.seconds(told_half_way(leg).feedback.estimated_time_remaining)
     left = leg.end - leg.half
     expect(
         left / FACTOR <= estimate <= left * FACTOR,
@@ -350,7 +350,7 @@ def half_done_half_way(leg: Leg) -> str:
 def measures_its_path(goal: Goal) -> str | None:
     """distance_traveled is the path of the pelvis without its sway, walked for this goal, however it ends"""
     end = goal.result
-    if not life.accepted(goal) or end is None or life.interrupted(goal) or life.went_down(goal):
+    if not life.accepted(goal) or end is None or life.interrupted(goal) or life.fell_or_lost_power(goal):
         return None
     detour = led_astray(goal) is not None
     ends_standing = not detour and (goal.status == SUCCEEDED or operated(goal))

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from autograder.authoring import SUCCEEDED, Goal, end_of_feedback, ev, expect, require_good_feedback_rate
 from autograder.authoring.evidence.robot_record import between
-from autograder.authoring.walking.life import accepted, ended_at, interrupted, left_alone
+from autograder.authoring.walking.life import accepted, ended_at, interrupted, was_not_awaited
 from humanoid_interfaces.action import PickAndPlace
 from ros_runtime.message_constants import GoalStatus, name_of
 
@@ -123,7 +123,7 @@ def values_are_measured(goal: Goal) -> str | None:
 
 def _is_worth_telling(goal: Goal) -> bool:
     """Return whether there was a cup to tell of, and no fall or Ctrl-C ended it; then there has to be feedback."""
-    if not is_for_the_cup(goal) or left_alone(goal) or interrupted(goal) or commanded(goal, "push"):
+    if not is_for_the_cup(goal) or was_not_awaited(goal) or interrupted(goal) or commanded(goal, "push"):
         return False
     if ended_at(goal) < goal.accepted_at + MIN_DURATION:
         return False

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from autograder.authoring import ABORTED, Goal, ev, expect, require_fell_told, require_knocked_over
-from autograder.authoring.walking.life import accepted, left_alone, successors
+from autograder.authoring import ABORTED, Goal, ev, expect, require_fall_reported, require_knocked_over
+from autograder.authoring.walking.life import accepted, successors, was_not_awaited
 from autograder.authoring.walking.reports import require_error_code
 
 from . import life
@@ -55,7 +55,7 @@ def knows_what_is_unknown(goal: Goal) -> str | None:
 
 def refuses_what_is_out_of_reach(goal: Goal) -> str | None:
     """A cup or a place out of reach ends it with UNREACHABLE, before arm or hand move."""
-    if not life.ends_by_itself(goal) or left_alone(goal):
+    if not life.ends_by_itself(goal) or was_not_awaited(goal):
         return None
     if not life.is_for_the_cup(goal) or not life.is_far(goal):
         return None
@@ -132,7 +132,7 @@ def withdraws_what_is_empty(goal: Goal) -> str | None:
 
 def notices_what_it_loses(goal: Goal) -> str | None:
     """When the cup is lost while it is lifted or moved the goal ends with DROPPED."""
-    taken = life.robbed_at(goal) if life.ends_by_itself(goal) and not left_alone(goal) else None
+    taken = life.robbed_at(goal) if life.ends_by_itself(goal) and not was_not_awaited(goal) else None
     if taken is None or not carried(goal, taken):
         return None
     require_held_when(goal, taken)
@@ -173,7 +173,7 @@ def tells_a_fall(goal: Goal) -> str | None:
     """When the robot falls the goal is ABORTED with FELL."""
     if not life.ends_by_itself(goal) or life.commanded(goal, "push") is None:
         return None
-    require_fell_told(goal, require_knocked_over(goal.run))
+    require_fall_reported(goal, require_knocked_over(goal.run))
     return "pushed"
 
 
@@ -257,7 +257,7 @@ def gives_the_hand_to_one(goal: Goal) -> str | None:
 
 def _robbed_of_its_grasp(goal: Goal) -> float | None:
     """Return when (s) the cup was taken from a goal that had not lifted it yet."""
-    taken = life.robbed_at(goal) if life.ends_by_itself(goal) and not left_alone(goal) else None
+    taken = life.robbed_at(goal) if life.ends_by_itself(goal) and not was_not_awaited(goal) else None
     return None if taken is None or carried(goal, taken) else taken
 
 

@@ -15,14 +15,14 @@ from autograder.authoring import (
     expect,
     goals,
     obligation,
-    require_fell_told,
+    require_fall_reported,
     require_good_feedback_rate,
     whole_run,
-    why_nothing_is_heard,
+    why_no_message_arrives,
     why_rclpy_aborted,
 )
 from autograder.authoring.walking import life, objections
-from autograder.authoring.walking.obligations import ends, tells
+from autograder.authoring.walking.obligations import ends, reporting
 from autograder.authoring.walking.reports import require_error_code
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.message_constants import GoalStatus, name_of
@@ -79,7 +79,7 @@ def accepts(goal: Goal) -> str | None:
             help='create_subscription(Odometry, "odom", …), a relative name.',
             at=last.t,
         )
-    deaf = (why_nothing_is_heard(run, topic) for topic in ("odom", "robot_state"))
+    deaf = (why_no_message_arrives(run, topic) for topic in ("odom", "robot_state"))
     later = any(result.t < goal.sent.t for result in run.all(ev.ResultReceived))
     help = advice.STANDS_ALREADY if stands else advice.FREE_AGAIN if later else advice.ACCEPT
     goal.require_accepted(next(filter(None, deaf), help))
@@ -111,7 +111,7 @@ takes_one_of_several = obligation(13, of=goals)(objections.one_of_several)
 def succeeds(goal: Goal) -> str | None:
     """It SUCCEEDS, and base_link is then at 0.59 m or higher"""
     accepts.require(goal)
-    if goal.status != SUCCEEDED and (not truth.could_rise(goal) or life.left_alone(goal)):
+    if goal.status != SUCCEEDED and (not truth.could_rise(goal) or life.was_not_awaited(goal)):
         return None
     run, result = life.run_of(goal), goal.result
     if result is None or result.status != SUCCEEDED:
@@ -174,7 +174,7 @@ def ends_with_a_fall(goal: Goal) -> str | None:
     fallen = truth.fallen_during(goal)
     if fallen is None:
         return None
-    require_fell_told(goal, fallen)
+    require_fall_reported(goal, fallen)
     return "a fall"
 
 
@@ -217,7 +217,7 @@ def keeps_the_limit(goal: Goal) -> str | None:
     if not truth.began_low(goal) or life.granted(goal) or truth.fallen_during(goal) or life.interrupted(goal):
         return None
     in_time = goal.status == SUCCEEDED and life.ended_at(goal) <= goal.accepted_at + TIME_LIMIT + LATE
-    if in_time or life.left_alone(goal):
+    if in_time or life.was_not_awaited(goal):
         return None
     result = goal.require_result(ABORTED, help=advice.TIME_IS_UP)
     took = result.t - goal.accepted_at
@@ -244,7 +244,7 @@ def names_no_error(goal: Goal) -> str | None:
     return name_of(GoalStatus, goal.result.status)
 
 
-says_why_it_aborted = obligation(17, of=goals)(tells.says_why_it_aborted)
+says_why_it_aborted = obligation(17, of=goals)(reporting.says_why_it_aborted)
 status_in_order = obligation(12, of=goals)(ends.status_in_order)
 
 
@@ -410,7 +410,7 @@ def stays_where_it_ended(goal: Goal) -> str | None:
 @obligation(8, of=goals, see="06_walk_to_a_pose#settle-intro")
 def feedback_at_5_hz(goal: Goal) -> str | None:
     """Feedback comes at 5 Hz without a gap over 1 s"""
-    if not truth.began_low(goal) or life.left_alone(goal) or life.interrupted(goal):
+    if not truth.began_low(goal) or life.was_not_awaited(goal) or life.interrupted(goal):
         return None
     if life.ended_at(goal) < goal.accepted_at + MIN_DURATION and not why_rclpy_aborted(goal):
         return None
@@ -419,7 +419,7 @@ def feedback_at_5_hz(goal: Goal) -> str | None:
 
 
 feedback_ends = obligation(8, of=goals, see="07_cancel_and_preempt#m13-why")(
-    tells.feedback_ends_with_the_goal
+    reporting.feedback_ends_with_the_goal
 )
 
 

@@ -1,4 +1,4 @@
-"""The checks that every client of `walk_to` gets, each for the clauses and the points of its exercise."""
+"""The checks for every client of `walk_to`; an exercise gives each its clauses and its points."""
 
 from __future__ import annotations
 
