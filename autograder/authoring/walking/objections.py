@@ -44,7 +44,7 @@ def accepting(*objections: Objection) -> Callable[[Goal], str | None]:
     """Return the requirement, for an obligation, that a goal without objections is accepted."""
 
     def accepts_what_can_be_walked_to(goal: Goal) -> str | None:
-        """It accepts a pose in frame odom when nothing speaks against it, whatever came before."""
+        """It accepts a pose in frame odom that it has no reason to reject, whatever came before."""
         if any(objection.because(goal) != "" for objection in objections):
             return None
         _require_subscriptions(run_of(goal))
