@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from autograder.isolation.limits import StudentLimits
-from autograder.isolation.student_sandbox import NICER, OOM_SCORE
+from autograder.isolation.student_sandbox import NICE_INCREMENT, OOM_SCORE
 
 _CAPABILITIES = ("CapInh", "CapPrm", "CapEff", "CapBnd", "CapAmb")
 _OWN = ("ipc", "mnt", "pid", "user", "uts")
@@ -45,7 +45,7 @@ PROMISES: Mapping[str, tuple[str, str]] = {
         f"beside {_ALLOWED.memory_mib} MiB of memory and {_ALLOWED.sockets} sockets, which are watched",
     ),
     "scheduling": (
-        f"batch, nice +{NICER}",
+        f"batch, nice +{NICE_INCREMENT}",
         "robot and grader go first; what it uses is measured, and too much is a failure that says how much",
     ),
     "out of memory": (f"score {OOM_SCORE}", "it is ended before anything else of the machine"),

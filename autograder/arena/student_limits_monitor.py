@@ -15,8 +15,8 @@ from autograder.isolation.student_process import StudentProcess
 from ros_runtime.workarounds.scaled_clock.clock import ScaledClock, real_monotonic_ns
 
 PERIOD = 0.1  # s of real time between two measurements, which read some files of every process
-BURST = 0.5  # s of real time over which the busy processors are counted
-WAIT = 1.0  # s on the arena's clock over which the waiting for a processor is counted
+BURST_TIME = 0.5  # s of real time over which the busy processors are counted
+WAIT_TIME = 1.0  # s on the arena's clock over which the waiting for a processor is counted
 
 
 class StudentLimitsMonitor:
@@ -43,7 +43,7 @@ class StudentLimitsMonitor:
         self._cpu = 0.0
         self._peak = 0.0
         self._starved: dict[int, float] = {}
-        self._lost = LostTime()
+        self._lost = MissedTime()
         self._cpu_before = 0.0
         self._in_time_since = time.monotonic()
         self._busy, self._losing = FastestGrowth(), FastestGrowth()
@@ -102,8 +102,8 @@ class StudentLimitsMonitor:
     def _look_at_growth(self) -> None:
         now = real_monotonic_ns() / 1e9
         self._lost.look(now, self._cpu, sum(self._starved.values()))
-        self._busy.look(now, self._cpu, BURST)
-        self._losing.look(now, self._lost.total, WAIT / self._clock.scale)
+        self._busy.look(now, self._cpu, BURST_TIME)
+        self._losing.look(now, self._lost.total, WAIT_TIME / self._clock.scale)
 
     def _excess(self, processes: list[int], memory: float) -> str:
         limits = self._limits
@@ -114,7 +114,7 @@ class StudentLimitsMonitor:
         return too_many_sockets(processes, limits, self._private_network)
 
 
-class LostTime:
+class MissedTime:
     """Sums the processor time that a program lacked, up to one full processor, while its processes had to wait.
 
     A program that already gets one processor's worth of time, over all its processes, loses nothing: a correct one

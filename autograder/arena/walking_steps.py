@@ -22,7 +22,7 @@ from ros_runtime.recorded_client.goal import RESULT_TIMEOUT
 ROBOT_TOPICS_TIME = 1.0  # s for the first odom and robot_state to arrive
 END_TIMEOUT = 10.0  # s for the end of a goal that is cancelled, preempted or out of reach
 WALK_START_TIMEOUT = 5.0  # s in which a robot begins to walk
-COMING_NEAR = 15.0  # s
+APPROACH_TIMEOUT = 15.0  # s
 NEAR = 0.12  # m
 
 # from a pose and the action's limit: max_velocity (m/s) or tolerance (m)
@@ -152,14 +152,14 @@ class _Walker:
         """Wait until the robot is within a distance (m) of where a goal sends it."""
         aim = self._poses[name].pose.position
         self._stage.robot.wait_for(
-            lambda robot: math.hypot(robot.x - aim.x, robot.y - aim.y) < distance, COMING_NEAR
+            lambda robot: math.hypot(robot.x - aim.x, robot.y - aim.y) < distance, APPROACH_TIMEOUT
         )
 
     def settle(self, name: str) -> None:
         """Wait until the robot is near a goal's pose, and then until it stands or the goal has ended."""
         self.come_near(name, NEAR)
         self._stage.robot.wait_for(
-            lambda robot: self._goals[name].has_ended or robot.mode == RobotState.STANDING, COMING_NEAR
+            lambda robot: self._goals[name].has_ended or robot.mode == RobotState.STANDING, APPROACH_TIMEOUT
         )
 
     def cut_power(self) -> None:

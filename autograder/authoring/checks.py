@@ -121,7 +121,7 @@ class Check:
     obligations: tuple[Obligation, ...] = ()
 
     @property
-    def meets_any_fault(self) -> bool:
+    def can_catch_any_fault(self) -> bool:
         """Whether any fault of a submission can make it fail: it judges obligations in drawn sequences."""
         return bool(self.obligations) and any(scenario.is_drawn for scenario in self.on)
 

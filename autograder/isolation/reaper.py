@@ -23,7 +23,7 @@ from ros_runtime.workarounds.die_with_parent import die_with_parent
 _PR_SET_CHILD_SUBREAPER = 36
 
 
-class _ToldToStopError(Exception):
+class _StopRequestedError(Exception):
     pass
 
 
@@ -33,7 +33,7 @@ def main() -> None:
     signal.signal(signal.SIGTERM, _stop)
     parent_lives = die_with_parent(int(sys.argv[1]), signal.SIGTERM)
     status = 128 + signal.SIGKILL
-    with suppress(_ToldToStopError):
+    with suppress(_StopRequestedError):
         os.write(int(sys.argv[2]), b"x")
         os.close(int(sys.argv[2]))
         if parent_lives:
@@ -77,7 +77,7 @@ def _sweep() -> None:
 
 def _stop(number: int, frame: object) -> None:
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
-    raise _ToldToStopError
+    raise _StopRequestedError
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ from autograder.isolation.limits import StudentLimits
 from autograder.isolation.running_program import RunningProgram
 from autograder.isolation.seccomp_filter import build_filter, student_filter
 
-NICER = 5  # nice value above the parent's: robot and grader get about three times the processor time
+NICE_INCREMENT = 5  # nice value above the parent's: robot and grader get about three times the processor time
 OOM_SCORE = 500  # oom_score_adj, at most 1000: out of memory, the kernel ends students' programs first
 _WORKDIR = "/tmp/work"  # the program's working directory in its sandbox
 _NETWORK_VARIABLES = ("ROS_DOMAIN_ID", "FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_BUILTIN_TRANSPORTS")
@@ -64,10 +64,10 @@ def start_program(program: Program, stack: ExitStack) -> RunningProgram:
     return _start_in_sandbox(program, stack)
 
 
-def stand_back(pid: int) -> None:
+def lower_priority(pid: int) -> None:
     """Lower the priority of a process and its future children, for processors and for memory."""
     os.sched_setscheduler(pid, os.SCHED_BATCH, os.sched_param(0))  # does not preempt others when it wakes up
-    os.setpriority(os.PRIO_PROCESS, pid, min(19, os.getpriority(os.PRIO_PROCESS, pid) + NICER))
+    os.setpriority(os.PRIO_PROCESS, pid, min(19, os.getpriority(os.PRIO_PROCESS, pid) + NICE_INCREMENT))
     with open(f"/proc/{pid}/oom_score_adj", "r+") as score:
         wanted = max(int(score.read()), OOM_SCORE)
         score.seek(0)
@@ -95,7 +95,7 @@ def _start_in_sandbox(program: Program, stack: ExitStack) -> RunningProgram:
         nproc = f"--nproc={program.limits.processes}"
         limited = [*_limited(program.limits), nproc, "--", sys.executable, *program.arguments]
         # the command is no group leader, so setsid need not fork
-        started = sandbox.start(["/usr/bin/setsid", "--", *limited], prepare=stand_back)
+        started = sandbox.start(["/usr/bin/setsid", "--", *limited], prepare=lower_priority)
     stack.callback(os.close, started.init_pidfd)
     return RunningProgram(started.process, started.command_pid, started.init_pid)
 
@@ -137,7 +137,7 @@ def _start_bare(program: Program, stack: ExitStack, as_lone_user: bool) -> Runni
         start_new_session=True,
     )
     with suppress(ProcessLookupError):  # it has ended already
-        stand_back(process.pid)
+        lower_priority(process.pid)
     return RunningProgram(process, process.pid)
 
 

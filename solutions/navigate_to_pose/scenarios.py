@@ -6,7 +6,7 @@ import math
 
 from autograder.arena.sequence import Steps
 from autograder.arena.stage import Stage
-from autograder.arena.walking_steps import COMING_NEAR, walk_in_order
+from autograder.arena.walking_steps import APPROACH_TIMEOUT, walk_in_order
 from humanoid_interfaces.action import NavigateToPose
 
 BACKWARD, TURN = -0.2, 0.45  # m/s, rad/s of the remote control
@@ -19,7 +19,7 @@ def in_order(stage: Stage, steps: Steps) -> None:
 
     def get_away(distance: float) -> None:
         """Wait until the robot is so far (m) from the origin."""
-        robot.wait_for(lambda state: math.hypot(state.x, state.y) > distance, COMING_NEAR)
+        robot.wait_for(lambda state: math.hypot(state.x, state.y) > distance, APPROACH_TIMEOUT)
 
     def lead_astray(back: float, side: float) -> None:
         """Take the robot over: walk it back for so long (s), turn it to a side (1 left, -1 right), and give it back."""

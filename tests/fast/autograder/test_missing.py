@@ -241,9 +241,9 @@ def test_what_the_submission_alone_decides_and_does_not_show_costs_it_the_points
 
     check = Check("It walks", 1, never_walks, on=(WITH_ROBOT,))
     assert judge(check, [quiet]).status == "error"
-    verdict = judge(check, [quiet], finally_=True)
+    verdict = judge(check, [quiet], is_last_attempt=True)
     assert (verdict.status, verdict.expected) == (
         "failed",
-        "an answer that shows this: the robot comes near the goal",
+        "an answer from which this can be judged: the robot comes near the goal",
     )
     assert isinstance(not_shown(transcript(RAISED, EXITED), "the robot comes near"), Failure)
