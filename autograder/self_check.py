@@ -70,8 +70,7 @@ def _graded_instead(exercise: str, path: Path) -> str:
     except UnusableSubmission:
         return ""
     return (
-        f"{counts} is what a grader takes, and as it is saved it holds other work than {path}: save it, and run its "
-        "cells again"
+        f"the grader would take {counts}, and its saved content differs from {path}: save it, and run its cells again"
         if is_other
         else ""
     )
@@ -117,7 +116,7 @@ def check_with_progress(
     recorder = _recorder(loaded) if recordings else None
     print_beginning(console, path, loaded)
     if not (isolation := available_isolation()).trusted:
-        said = f"No isolation: {isolation.reason}. All visible checks are made; a grade made here is “untrusted”."
+        said = f"No isolation: {isolation.reason}. All visible checks are run; a grade made here is “untrusted”."
         console.print(said, style="yellow", markup=False)
     with RunningLine(console, in_notebook=Console().is_jupyter) as line:
 

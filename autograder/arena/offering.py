@@ -19,7 +19,7 @@ from autograder.arena.scripted_service import Reply, ScriptedService
 from autograder.arena.student import Student
 from autograder.arena.topics import ScriptedTopic
 
-FLOOD = 50  # messages within QUIET_TIME; no correct node sends as many
+FLOOD = 50  # messages within QUIET_TIME; no correct node sends so many
 QUIET_TIME = 0.25  # s on the arena's clock
 FLOOD_TIMEOUT = 15.0  # s on the arena's clock to wait for the end of a flood
 POLL_PERIOD = 0.005  # s between two polls of a state without notification, such as the graph

@@ -15,7 +15,7 @@ FALL_TIMEOUT = 6.0  # s on the arena's clock, in which a robot that is knocked o
 
 
 class RobotUnavailable(Exception):
-    """The simulator did not do what the scenario needs: our fault, never the student's."""
+    """The simulator does not provide what the scenario needs; the student's program is never the cause."""
 
 
 class Robot:

@@ -31,10 +31,10 @@ from ros_runtime.recorded_client.service_client import ServiceClient
 
 # s, on a clock that still runs at scale 1:
 READY_TIMEOUT = 20.0  # for the node to offer the services and actions of the scenario
-COMPANY_TIMEOUT = 5.0  # for the remaining ones, once the node offers the first
-MATCHING_TIMEOUT = 10.0  # for robot and node to find each other's topics
-REACHING_TIMEOUT = 1.0  # a correct node may be slow at first, a faulty one never answers
-MOST_REACHED = 4  # nodes
+REMAINING_TIMEOUT = 5.0  # for the remaining ones, once the node offers the first
+MATCHING_TIMEOUT = 10.0  # for robot and node to discover each other's topics
+REACHING_TIMEOUT = 1.0  # for a first exchange of messages with the node; a faulty node never answers
+MOST_REACHED = 4  # nodes with which messages are exchanged
 OFFERS_PERIOD = 0.1  # between two queries of all services on offer
 CONNECTION_TIME = 0.05  # for the node to discover the clients in turn
 # s, on the arena's clock:
@@ -160,7 +160,7 @@ class Stage(Offering):
                 first_offer = now if self._graph.offered() else None
                 next_look = now + OFFERS_PERIOD
             late = now - started > READY_TIMEOUT
-            incomplete = first_offer is not None and now - first_offer > COMPANY_TIMEOUT
+            incomplete = first_offer is not None and now - first_offer > REMAINING_TIMEOUT
             if late or incomplete or self._student.has_exited():
                 offered = self._graph.offered()
                 self._log.append(ev.NodeNotReady(missing=missing, offered=offered, waited=now - started))
@@ -202,7 +202,7 @@ class Stage(Offering):
             self._graph.report_topics(peers.publishers)
 
     def _reach_node(self) -> None:
-        """Exchange messages with the student's node, so that no answer is lost on a client it has not discovered."""
+        """Exchange messages with the student's node, so that it has discovered all clients and no answer is lost."""
         services = [service.name for service in self._services]
         services += [f"{action.name}/_action/send_goal" for action in self._actions]
         owners = dict.fromkeys(owner for service in services for owner in self._graph.owners_of(service))

@@ -15,8 +15,8 @@ from autograder.isolation.student_process import StudentProcess
 from ros_runtime.workarounds.scaled_clock.clock import ScaledClock, real_monotonic_ns
 
 PERIOD = 0.1  # s of real time between two measurements, which read some files of every process
-BURST_TIME = 0.5  # s of real time over which the busy processors are counted
-WAIT_TIME = 1.0  # s on the arena's clock over which the waiting for a processor is counted
+BURST_TIME = 0.5  # s of real time, over which the number of busy processors is averaged
+WAIT_TIME = 1.0  # s on the arena's clock, over which the missed processor time is averaged
 
 
 class StudentLimitsMonitor:
@@ -115,10 +115,10 @@ class StudentLimitsMonitor:
 
 
 class MissedTime:
-    """Sums the processor time that a program lacked, up to one full processor, while its processes had to wait.
+    """Sums the processor time that a program missed, up to one full processor, while its processes had to wait.
 
-    A program that already gets one processor's worth of time, over all its processes, loses nothing: a correct one
-    needs no more, and its processes then wait for each other.
+    A program whose processes together get the time of one processor misses nothing: a correct program needs no more,
+    and its processes then wait for each other.
     """
 
     def __init__(self) -> None:

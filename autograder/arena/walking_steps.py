@@ -52,7 +52,7 @@ class _Walker:
         self._stage, self._action, self._make_goal = stage, action, make_goal
         self._goals: dict[str, Goal] = {}
         self._poses: dict[str, PoseStamped] = {}
-        self._waited_in_vain = False
+        self._a_goal_timed_out = False
 
     def vocabulary(self) -> dict[str, Callable[..., object]]:
         return {
@@ -107,8 +107,8 @@ class _Walker:
     def arrive(self, name: str, patience: float = RESULT_TIMEOUT) -> None:
         """Wait `patience` s for the end of a goal, or END_TIMEOUT if an earlier goal has missed its timeout."""
         goal = self._goals[name]
-        if goal.accepted and not goal.wait_for_result(END_TIMEOUT if self._waited_in_vain else patience):
-            self._waited_in_vain = True
+        if goal.accepted and not goal.wait_for_result(END_TIMEOUT if self._a_goal_timed_out else patience):
+            self._a_goal_timed_out = True
 
     def end(self, name: str) -> None:
         """Wait for the end of a goal that was cancelled, preempted or put out of reach."""

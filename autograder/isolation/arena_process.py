@@ -91,7 +91,7 @@ class ArenaProcess:
         return self._report.result() if self._report.done() else None
 
     def wait(self, timeout: float | None = None) -> ArenaReport:
-        """Wait for the end, which the arena's own deadline brings. Raises TimeoutError after `timeout` s."""
+        """Wait for the end, at the latest at the arena's deadline. Raises TimeoutError after `timeout` s."""
         return self._report.result(timeout)
 
     def kill(self) -> ArenaReport:

@@ -28,7 +28,7 @@ class _StopRequestedError(Exception):
 
 
 def main() -> None:
-    """Adopt orphans, run the command, sweep."""
+    """Adopt orphans, run the command, and end what it leaves behind."""
     ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
     signal.signal(signal.SIGTERM, _stop)
     parent_lives = die_with_parent(int(sys.argv[1]), signal.SIGTERM)

@@ -199,4 +199,4 @@ def test_a_notebook_that_holds_other_work_than_its_file_is_named_by_its_self_che
     assert capsys.readouterr().out == ""
     put(tmp_path, FIRST, (f"{NAME}.ipynb", notebook(OTHER)))
     module.self_check(NAME)
-    assert f"{NAME}.ipynb is what a grader takes" in capsys.readouterr().out
+    assert f"the grader would take {NAME}.ipynb" in capsys.readouterr().out

@@ -150,7 +150,7 @@ def test_a_robot_whose_time_stands_still_is_not_judged():
     [
         ("it used 900 MiB of memory; 700 MiB are allowed", "list that grows"),
         ("it made 11,045 files; 10,000 are allowed", "files that are created in a callback"),
-        ("with it there were 80 TCP sockets; 64 are allowed", "connections that are created in a callback"),
+        ("the arena had 80 TCP sockets; 64 are allowed", "connections that are created in a callback"),
     ],
 )
 def test_each_limit_has_a_remedy_of_its_own(reason, help):
