@@ -137,7 +137,7 @@ class Stage(Offering):
 
     @property
     def robot(self) -> Robot:
-        """The robot, which the scenario must have asked for."""
+        """The robot; raises if the scenario has none."""
         if self._robot is None:
             raise RobotUnavailable("this scenario has no robot; give its Scenario one (robot=())")
         return self._robot

@@ -26,7 +26,7 @@ PLURALS: Mapping[str, str] = {
     ev.MessageReceived.kind: "messages on a topic",
     ev.NodeOutput.kind: "lines of output",
     ev.TooLarge.kind: "messages that are too large",
-    "unread": "messages that nobody could read in time",
+    "unread": "messages that could not be read in time",
     "unreadable": "messages that cannot be read",
 }
 

@@ -39,7 +39,7 @@ def _require_simulated_time(run: Transcript) -> None:
     times = [start, *(robot.t for robot in run.ground_truth if start < robot.t < end), end]
     silence, since = max((later - earlier, earlier) for earlier, later in pairwise(times))
     if not run.ground_truth or silence > MAX_REPORT_GAP:
-        raise held_up(run, f"the robot's time stood still for {silence:.1f} s from {since:.1f} s on")
+        raise held_up(run, f"the simulation stood still for {silence:.1f} s from {since:.1f} s on")
 
 
 def _require_effects(run: Transcript) -> None:

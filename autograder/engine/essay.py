@@ -10,7 +10,7 @@ from autograder.authoring.rubric import Criterion, Picture, criteria_in, picture
 from autograder.engine.exercise import RUBRIC, UnusableExercise, exercise_module, exercises_folder
 from autograder.engine.verdict import CheckVerdict, Grade
 
-BY_HAND = "by hand"  # stands for the isolation in a grade without an arena
+BY_HAND = "by hand"  # the isolation in a grade without an arena
 
 
 @dataclass(frozen=True)

@@ -62,13 +62,13 @@ class GradingOptions:
 
 @dataclass(frozen=True)
 class Watcher:
-    """What is called while a submission is graded, on any thread.
+    """Functions that are called while a submission is graded, on any thread.
 
     Attributes:
-        on_verdict: gets each verdict as soon as it is known.
-        on_retry: gets each check that did not pass and is now tried again.
-        on_evidence: gets the transcripts that a check was judged on.
-        on_running: gets the scenarios that run, whenever they change.
+        on_verdict: receives each verdict as soon as it is known.
+        on_retry: receives each check that did not pass and is retried.
+        on_evidence: receives each verdict from transcripts, with these transcripts.
+        on_running: receives the running scenarios whenever they change.
     """
 
     on_verdict: Callable[[CheckVerdict], None] = lambda verdict: None

@@ -45,7 +45,7 @@ def main() -> None:
     except OSError as error:
         sys.exit(f"root could not drop its privileges: {error}")
     if not die_with_parent(plan["parent"]):
-        sys.exit("the process that asked for this sandbox has gone")
+        sys.exit("the process that started this sandbox has ended")
     os.execv(sys.argv[2], sys.argv[2:])
 
 

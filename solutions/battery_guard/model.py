@@ -103,7 +103,7 @@ def asks_to_cancel(life: GuardLife) -> Iterator[tuple[int, str]]:
     """Judge that it cancels when it has to, once, and never otherwise; yield the clauses that ask for it, and why."""
     for cause in _require_cancels(life) if life.goal else []:
         early = cause.name == "battery" and cause.since == life.accepted
-        if cause.is_owed:
+        if cause.is_required:
             yield {"silence": 14, "Ctrl-C": 16}.get(cause.name, 6 if early else 5), cause.because
 
 

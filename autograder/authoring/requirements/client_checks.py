@@ -201,10 +201,10 @@ def require_one_goal(run: Transcript, action: str) -> ScriptedGoal:
 
 def why_it_left(goal: ScriptedGoal, exited: ev.NodeExited) -> str:
     """Return what to do about a client that ended before its goal, by the last message it received."""
-    heard = [feedback.t for feedback in goal.feedback if feedback.t < exited.t]
-    if exited.returncode == TIMED_OUT and heard and exited.t - heard[-1] < MAX_FEEDBACK_AGE:
+    times = [feedback.t for feedback in goal.feedback if feedback.t < exited.t]
+    if exited.returncode == TIMED_OUT and times and exited.t - times[-1] < MAX_FEEDBACK_AGE:
         return (
-            f"It gave up, although feedback came until {heard[-1]:.1f} s: a goal may take long. Only the time since "
+            f"It gave up, although feedback came until {times[-1]:.1f} s: a goal may take long. Only the time since "
             "the last feedback is limited."
         )
     reply = goal.cancels[0].reply if goal.cancels else None

@@ -52,21 +52,21 @@ def require_ending(client: ClientRun) -> tuple[list[End], ev.NodeExited]:
             help="An expected end is not a crash: catch the exception, print one line, and return the status.",
             at=exited.t,
         )
-    told = [end for end in ends if end.status == exited.returncode]
-    require_patience(client, told or ends)
-    if not told:
+    allowed = [end for end in ends if end.status == exited.returncode]
+    require_patience(client, allowed or ends)
+    if not allowed:
         observed, help = why_not_this_status(run, exited, ends[-1].help)
         expected = f"exit status {ends[-1].status}: {ends[-1].because}"
         raise Failure(expected=expected, observed=observed, help=help, at=exited.t)
-    latest = max(end.latest for end in told)
+    latest = max(end.latest for end in allowed)
     expect(
         exited.t <= latest,
-        expected=f"the program to end by {latest:.1f} s: {told[-1].because}",
+        expected=f"the program to end by {latest:.1f} s: {allowed[-1].because}",
         observed=f"it ended at {exited.t:.1f} s",
         help=client.end_in_time,
         at=exited.t,
     )
-    return told, exited
+    return allowed, exited
 
 
 def require_patience(client: ClientRun, ends: list[End]) -> None:
@@ -76,17 +76,17 @@ def require_patience(client: ClientRun, ends: list[End]) -> None:
         raise client.left_early(ends[0], exited)
 
 
-def require_its_line(client: ClientRun, told: list[End], exited: ev.NodeExited) -> None:
+def require_its_line(client: ClientRun, allowed: list[End], exited: ev.NodeExited) -> None:
     """Require one line that says how it ended: with status 0 and 4 on stdout, else on stderr."""
     finished = client.goal.finished if client.goal else None
-    if any(end.name == "Ctrl-C" for end in told):
+    if any(end.name == "Ctrl-C" for end in allowed):
         _require_what_became(client, exited)
     elif exited.returncode == SUCCEEDED and finished:
         _require_final_pose(finished, require_ending_line(client.run, "SUCCEEDED", exited.t), exited.t)
     elif exited.returncode == CANCELED and finished:
         require_ending_line(client.run, "CANCELED", exited.t, since=_said_of_the_end(client, finished))
     else:
-        require_reason(client, told, exited)
+        require_reason(client, allowed, exited)
     _require_no_other_ending(client, exited)
 
 
@@ -154,9 +154,9 @@ def _require_final_pose(finished: ev.GoalFinished, line: str, at: float) -> None
         )
 
 
-def require_reason(client: ClientRun, told: list[End], exited: ev.NodeExited) -> None:
+def require_reason(client: ClientRun, allowed: list[End], exited: ev.NodeExited) -> None:
     """Require a line on stderr that says why it ended, and exactly one with the server's reason after ABORTED."""
-    run, since = client.run, min(end.earliest for end in told) - ORDER_MARGIN
+    run, since = client.run, min(end.earliest for end in allowed) - ORDER_MARGIN
     expect(
         bool(printed(run, "stderr", since)),
         expected="one line on stderr that says why it ended",

@@ -111,7 +111,7 @@ def require_cancels_in_time(
             at=t,
         )
     for cause in causes:
-        if cause.is_owed and not any(t <= cause.latest for t in asked):
+        if cause.is_required and not any(t <= cause.latest for t in asked):
             raise Failure(
                 expected=f"a request to cancel the goal, because {cause.because}",
                 observed=f"the first {asked[0] - cause.since:.1f} s after it"
@@ -126,16 +126,16 @@ def require_cancels_in_time(
 def _needless(client: ClientRun, t: float) -> Failure:
     """Return the failure for a cancel request that came without a cause."""
     assert client.goal is not None
-    heard = max([client.goal.received.t, *(each for each in client.received if each <= t)])
+    last_message = max([client.goal.received.t, *(each for each in client.received if each <= t)])
     typed = [event.line for event in client.run.all(ev.NodeTyped) if event.t <= t]
     after = ""
     if typed:
         after = ", after the end of the input" if typed[-1] is None else f", after the line “{typed[-1]}”"
     return Failure(
         expected=f"no request to cancel before a line q, Ctrl-C or {SILENCE_LIMIT:g} s of silence",
-        observed=f"one came {t - heard:.1f} s after the last message of the server{after}",
+        observed=f"one came {t - last_message:.1f} s after the last message of the server{after}",
         help="Cancel only when a line, without its newline, is exactly q, at Ctrl-C, or after 5 s of silence: a goal "
-        f"may take long, and the last message came at {heard:.1f} s.",
+        f"may take long, and the last message came at {last_message:.1f} s.",
         at=t,
     )
 
@@ -175,9 +175,9 @@ def asks_for_its_result(client: ClientRun) -> str | None:
 def follows_its_goal(client: ClientRun) -> str:
     """It cancels its goal when it must, and ends in time, with the exit status and the line for the goal's end."""
     causes = require_cancels_in_time(client, _needless, _how_to_cancel) if client.goal else []
-    told, exited = require_ending(client)
-    require_its_line(client, told, exited)
-    ended, canceled = told[0].name, " and ".join(cause.name for cause in causes)
+    allowed, exited = require_ending(client)
+    require_its_line(client, allowed, exited)
+    ended, canceled = allowed[0].name, " and ".join(cause.name for cause in causes)
     return ended if canceled in ("", ended) else f"{ended}, {canceled}"
 
 

@@ -68,13 +68,13 @@ class End:
 
 @dataclass(frozen=True)
 class Cause:
-    """A reason to cancel the goal: if it `is_owed`, a request must come from `since` to `latest` (s)."""
+    """A reason to cancel the goal: if it `is_required`, a request must come from `since` to `latest` (s)."""
 
     name: str
     because: str
     since: float
     latest: float
-    is_owed: bool
+    is_required: bool
     once: bool = False
 
 
@@ -190,11 +190,11 @@ class ClientRun:
     def _cause(
         self, name: str, because: str, since: float, due: float, is_certain: bool = True, once: bool = False
     ) -> Cause:
-        """Return a cause; a request is not owed if the server is gone or another end comes first."""
+        """Return a cause; it requires no request if the server is gone or another end comes first."""
         others = [end.at for end in self.ends() if end.name != name]
         over = min([self.when(ev.ActionWithdrawn), *others])
-        is_owed = is_certain and over > due + SLACK and since <= self.exited
-        return Cause(name, because, since, due + SLACK, is_owed, once)
+        is_required = is_certain and over > due + SLACK and since <= self.exited
+        return Cause(name, because, since, due + SLACK, is_required, once)
 
     def ends(self) -> list[End]:
         """Return how it may end: in several ways only if two events are too close to have a certain order."""
@@ -213,7 +213,7 @@ class ClientRun:
         return [end for end, _ in found if end.at <= last]
 
     def _without_a_goal(self) -> list[End]:
-        due, because = self.started + SILENCE_LIMIT, f"nobody offers {self.action}"
+        due, because = self.started + SILENCE_LIMIT, f"no server offers {self.action}"
         return [End(NO_SERVER, "no server", because, due, due - DETECTION_TIME, due + SLACK + 3.0, _FIND)]
 
     def _after_the_acceptance(self) -> Iterator[tuple[End, bool]]:

@@ -71,7 +71,7 @@ def successors(goal: Goal) -> list[Goal]:
 
 
 def together_with(goal: Goal) -> list[Goal]:
-    """Return the accepted goals that were sent before this one was answered, or the other way round."""
+    """Return the accepted goals whose time from request to answer overlaps with that of this goal."""
     return [
         other
         for other in rivals(goal)

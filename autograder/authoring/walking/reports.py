@@ -70,7 +70,7 @@ def _require_true_place(goal: Goal, feedback: ev.FeedbackReceived, recent: Seque
 def require_true_result(goal: Goal) -> None:
     """Require that final_pose and total_steps were measured when the goal ended; a copy of the request is no pose."""
     end = goal.result
-    assert end, "ask for its result first"
+    assert end, "call require_result first"
     age = DELIVERY if goal.status == ABORTED else end.t - ended_at(goal) + FINAL_AGE
     stamped, recent = end.result.final_pose, _recent(goal, end.t, age)
     _require_true_steps(goal, end.result.total_steps, "result.total_steps", end.t, recent)
@@ -88,7 +88,7 @@ def require_true_result(goal: Goal) -> None:
 
 def require_error_code(goal: Goal, name: str, *, because: str, help: str = "") -> None:
     """Require that the result names the reason; `help` is what to do if it names another one."""
-    assert goal.result, "ask for its result first"
+    assert goal.result, "call require_result first"
     result = type(goal.result.result)
     constant = f"{result.__name__.replace('_', '.')}.{name}"  # such as WalkTo.Result.FELL
     if not help or goal.result.result.error_code == 0:

@@ -140,7 +140,7 @@ def test_a_whole_record_is_no_reason_to_fail():
 
 
 def test_a_robot_whose_time_stands_still_is_not_judged():
-    with pytest.raises(CannotBeJudged, match=r"the robot's time stood still for 6\.0 s from 4\.0 s on"):
+    with pytest.raises(CannotBeJudged, match=r"the simulation stood still for 6\.0 s from 4\.0 s on"):
         require_whole(transcript(robot_until=4.0), WITH_ROBOT)
     require_whole(transcript(robot_until=4.0), WITHOUT)
 
@@ -178,7 +178,7 @@ def test_more_processors_may_be_busy_where_the_clock_is_fast():
     "reason", [REFUSED, BUSY, AT_ONCE, ev.ArenaOverfull(memory_mib=3100, limit_mib=1536)]
 )
 def test_a_submission_that_holds_the_robot_up_fails(reason):
-    with pytest.raises(Failure, match="time stood still"):
+    with pytest.raises(Failure, match="simulation stood still"):
         require_whole(transcript(reason, robot_until=4.0), WITH_ROBOT)
 
 

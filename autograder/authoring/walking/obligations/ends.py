@@ -101,8 +101,8 @@ def only_one_is_newest(goal: Goal) -> str | None:
         len(kept) == 1,
         expected="one of the goals that were accepted together to go on, and the others to end PREEMPTED",
         observed=f"{len(kept)} of {len(together)} went on",
-        help="Two goals can be accepted before either executes: let handle_accepted_callback note which is the newest, "
-        "and let one loop at a time steer.",
+        help="Two goals can be accepted before either executes: store the newest goal in handle_accepted_callback, and "
+        "let only the loop of that goal publish on cmd_vel.",
         at=goal.result.t,
     )
     return f"{len(together)} together"

@@ -24,7 +24,7 @@ STANDING_TIME = 1.2  # s after the result in which the robot must not move
 ZERO = 1e-6  # m/s, rad/s
 _SETTLE = (
     "Stop, settle, measure, then succeed: a humanoid takes up to a second to finish its step after a zero Twist. Wait "
-    "until robot_state.mode has been STANDING for 0.5 s, and look at odom once more."
+    "until robot_state.mode has been STANDING for 0.5 s, and then read odom once more."
 )
 
 
