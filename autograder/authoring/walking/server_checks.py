@@ -72,7 +72,7 @@ def reports(
     rate = of_both(model.feedback_at_5_hz, needs=under_way)
     truth = of_both(
         [model.feedback_is_true, model.estimates_the_time],
-        title="Pose, distance and steps in the feedback are the robot's, and the estimate of the time left is one",
+        title="Pose, distance and steps in the feedback are the robot's, and the time left is a plausible estimate",
         needs=rate,
     )
     end = of_both(model.feedback_ends_with_the_goal, needs=[arrives, rate])
