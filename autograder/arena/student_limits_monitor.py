@@ -51,7 +51,7 @@ class StudentLimitsMonitor:
         threading.Thread(target=self._watch, name="student limits", daemon=True).start()
 
     def count_from_now(self) -> None:
-        """Begin to count what is used while the arena's clock runs at its scale."""
+        """Restart the measurements, because the arena's clock has reached its scale."""
         self._look()
         with self._looking:
             self._cpu_before, self._in_time_since = self._cpu, time.monotonic()

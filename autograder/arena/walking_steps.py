@@ -124,16 +124,16 @@ class _Walker:
     # -- cancels ------------------------------------------------------------------------------------------------------
 
     def cancel(self, name: str) -> None:
-        """Ask to cancel a goal, and wait for the answer."""
+        """Request to cancel a goal, and wait for the answer."""
         self._goals[name].cancel().wait()
 
     def cancel_twice(self, name: str) -> None:
-        """Ask for the same cancel two times in a row."""
+        """Request the same cancel twice in a row."""
         for cancel in (self._goals[name].cancel(), self._goals[name].cancel()):
             cancel.wait()
 
     def cancel_at_once(self, name: str, x: float, y: float, yaw: float, limit: float = 0.0) -> None:
-        """Send a goal and ask to cancel it before it is answered; repeat if the cancel arrived before the goal."""
+        """Send a goal and request to cancel it before it is answered; repeat if the cancel arrived before the goal."""
         goal = self._send_pose(name, pose_at(x, y, yaw), limit)
         cancel = goal.cancel()
         cancel.wait()

@@ -97,7 +97,7 @@ def _with_lesson(help: str, see: str) -> str:
 
 
 def verdict_on(check: Check, status: CheckStatus, *, points: float = 0, **found: Any) -> CheckVerdict:
-    """Return the record of what a check found: `found` are the other fields of a `CheckVerdict`."""
+    """Return the verdict on a check; `found` are further fields of `CheckVerdict`."""
     of_the_check: dict[str, Any] = {
         "max_points": check.points,
         "hidden": check.hidden,

@@ -84,7 +84,7 @@ def read_submission(path: Path, exercise: str, student: str = "you") -> Submissi
 
 
 def sources_of(name: str, content: bytes, exercise: str, path: PurePath) -> dict[str, str]:
-    """Return the texts of the exercise's files that the file `name` holds, which is one of them or the notebook.
+    """Return the texts of the exercise's files in the file `name`: its own, or those that a notebook writes.
 
     Raises:
         UnusableSubmission: it cannot be read; the message calls it `path`.

@@ -100,7 +100,7 @@ class ArenaProcess:
         return self.wait()
 
     def allow(self, seconds: float) -> None:
-        """Set the deadline anew, so many seconds from now."""
+        """Set the deadline to this number of seconds from now."""
         self._deadline = time.monotonic() + seconds
 
     def _live(self) -> None:

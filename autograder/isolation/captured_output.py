@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 _READ_BYTES = 65536
 _LONGEST_LINE = 4096  # characters; a longer one is continued on the next line
-_SHORTEST_COST = 32  # bytes that even an empty line is charged, as keeping it costs memory
+_SHORTEST_COST = 32  # bytes that each line counts at least, because even an empty one uses memory
 
 
 class OutputLine(NamedTuple):

@@ -9,7 +9,7 @@ from autograder.authoring.evidence.record import Record
 OUTSIDE = "01_robot_and_graph#names-why"
 
 
-def _hears(run: Record, topic: str) -> bool | None:
+def _is_subscribed(run: Record, topic: str) -> bool | None:
     """Return whether a subscription matched the robot's `topic`; None if that was not recorded."""
     counts = [
         count
@@ -34,7 +34,7 @@ def lesson_on_subscribing(run: Record, topic: str) -> str:
 
 def _missing_subscription(run: Record, topic: str) -> Remedy | None:
     topics = run.first(ev.NodeTopics)
-    if topics is None or _hears(run, topic) in (None, True):
+    if topics is None or _is_subscribed(run, topic) in (None, True):
         return None
     names = [name for name in topics.subscribes if _base(name) == topic]
     elsewhere = [name for name in names if name not in _robots_names(run)]

@@ -41,7 +41,7 @@ def not_shown(run: Record, what: str) -> Exception:
 def held_up(run: Record, what: str) -> Exception:
     """Return the exception if the robot did not do its part: a `Failure` if the submission overloaded it.
 
-    A node that has ended is no cause of that.
+    That the node has ended does not count as the cause.
     """
     return _exception_for(run, what, why_the_robot_was_held_up(run))
 

@@ -37,7 +37,7 @@ def why_it_went_no_further(run: Record) -> Cause | None:
 
 
 def why_the_robot_was_held_up(run: Record) -> Cause | None:
-    """Return how the submission overloaded the robot: with bad messages, too much memory or too much processor time."""
+    """Return how the submission overloaded the robot: by messages over a limit, memory or processor time."""
     return _refused(run) or _overfull(run) or _busy(run)
 
 

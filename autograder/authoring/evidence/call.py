@@ -82,7 +82,7 @@ class Call:
         expect_field(self.response, path, value, because=because, help=help, at=self.answered.t, see=see)
 
     def require(self, condition: bool, *, expected: str, observed: str, help: str, see: str = "") -> None:
-        """Require of its answer that a condition holds."""
+        """Require that a condition on its answer holds; a failure has the time of the answer."""
         expect(condition, expected=expected, observed=observed, help=help, at=self.answered.t, see=see)
 
 

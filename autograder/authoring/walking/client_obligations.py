@@ -306,7 +306,7 @@ def refuses_what_is_no_pose(run: Transcript) -> str:
     )
     expect(
         run.first(ev.NodeReady) is None,
-        expected="no node: there is nothing to do",
+        expected="no node, because the arguments are wrong",
         observed="a node was started",
         help="Read the arguments before rclpy.init().",
         at=exited.t,

@@ -19,7 +19,7 @@ AT_GOAL_DISTANCE = 0.1  # m; a robot that is no farther from its goal need not w
 BIG_TURN = 0.3  # rad
 MAX_WALKING_SPEED = 0.4  # m/s
 MIN_STANDING_TIME = 0.5  # s; a robot that was observed for less may still be moving
-# A robot is "just before arrival" if it is within both of its goal:
+# A robot is "just before arrival" if its distance and its turn to the goal are within both limits:
 NEAR_DISTANCE = 0.15  # m, in addition to the tolerance
 NEAR_TURN = 0.3  # rad
 

@@ -15,7 +15,7 @@ from autograder.authoring.walking.truth import require_accepted
 from ros_runtime.angles import wrap
 
 SPEED_SLACK = 1.1  # times the limit
-TURN_SLACK = 1.0  # rad that the robot may turn more than it has to
+TURN_SLACK = 1.0  # rad by which the robot may turn more than necessary
 MOVED_DISTANCE = 0.1  # m
 
 

@@ -18,7 +18,7 @@ from autograder.authoring.walking.life import others, overlaps, phase, run_of
 from autograder.authoring.walking.planar import numbers_of, stamped_target, target
 from autograder.authoring.walking.truth import require_accepted
 
-UNIT = 0.01  # by which the length of a quaternion that was rounded may differ from 1
+UNIT_SLACK = 0.01  # by which the length of a rounded quaternion may differ from 1
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ def no_rotation(goal: Goal) -> str | None:
     length = math.hypot(turned.x, turned.y, turned.z, turned.w)
     if length == 0.0:
         return "x, y, z and w are all 0, which is no rotation"
-    return "" if abs(length - 1.0) <= UNIT or not isfinite(length) else None
+    return "" if abs(length - 1.0) <= UNIT_SLACK or not isfinite(length) else None
 
 
 @objection("Accept max_velocity only if math.isfinite(v) and v >= 0.0: NaN < 0.0 is false, too.")

@@ -68,7 +68,7 @@ def _require_true_place(goal: Goal, feedback: ev.FeedbackReceived, recent: Seque
 
 
 def require_true_result(goal: Goal) -> None:
-    """Require that final_pose and total_steps were measured when the goal ended; a copy of the request is no pose."""
+    """Require that final_pose and total_steps were measured when the goal ended, and not copied from the request."""
     end = goal.result
     assert end, "call require_result first"
     age = DELIVERY if goal.status == ABORTED else end.t - ended_at(goal) + FINAL_AGE
