@@ -105,7 +105,9 @@ def check_with_progress(
     recorder = _recorder(loaded) if recordings else None
     print_beginning(console, path, loaded)
     if not (isolation := available_isolation()).trusted:
-        said = f"No isolation: {isolation.reason}. All visible checks are made; a grade made here is “untrusted”."
+        said = (
+            f"No isolation: {isolation.reason}. All visible checks are run; a grade made here is “untrusted”."
+        )
         console.print(said, style="yellow", markup=False)
     with RunningLine(console, in_notebook=Console().is_jupyter) as line:
 

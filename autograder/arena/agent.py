@@ -71,7 +71,7 @@ def carry_out(
             if domain is not None:
                 os.environ["ROS_DOMAIN_ID"] = str(domain)
             _carry_out(spec, log, phases, clock, robots)
-    except Exception as error:  # whatever it is, the controller must learn that this run cannot be judged
+    except Exception as error:  # after any error the controller must know that this run cannot be judged
         log.append(ev.ScenarioFailed(reason=f"{type(error).__name__}: {error}"))
         traceback.print_exc()
         status = 1
@@ -140,5 +140,5 @@ def _perform(
 
 
 def _bare_node(name: str, namespace: str) -> Node:
-    """Make a node without services of its own, which every other node would have to discover."""
+    """Make a node without parameter services and rosout, so that other nodes have less to discover."""
     return rclpy.create_node(name, namespace=namespace, start_parameter_services=False, enable_rosout=False)

@@ -61,9 +61,9 @@ class ClientStage(Offering):
         self._student.interrupt()
 
     def run_module(self, module: str, arguments: Sequence[str], files: Sequence[str]) -> None:
-        """Run a module of ours on some of the student's files, in the student's sandbox, to its end.
+        """Run a module of the grader on some of the student's files, in the student's sandbox, and wait for its end.
 
-        Use it in scenarios in which nothing is timed. A timeout is recorded as for a student's program.
+        Use it only in scenarios in which nothing is timed. A timeout is recorded as for a student's program.
         """
         self._student.start_module(module, arguments, files)
         self._wait_for_end(MODULE_TIMEOUT)

@@ -1,7 +1,7 @@
 """The ROS graph: which nodes, topics and services there are. Any participant can write into it, so it is not trusted.
 
-The graph is asked by the names of topics and services, which costs the same however many nodes there are and whatever
-they are called. A question that fails has an empty answer, and `Graph.inspect` records what was odd.
+The graph is queried by the names of topics and services, so that the cost does not depend on the number of nodes or on
+their names. A query that fails returns an empty result, and `Graph.inspect` records the failure.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ MOST_ENDPOINTS = 100  # of one topic or service that are inspected one by one
 MOST_SERVICES = 40  # that a report lists
 MOST_TOPICS = 20  # that a report lists, in each direction
 MOST_NAMES = 1000  # of nodes and services that are inspected one by one
-OF_EVERY_NODE = (
+RCLPY_SERVICE_TYPES = (
     "rcl_interfaces/",
     "type_description_interfaces/",
 )  # types of services that rclpy offers itself
-OF_THE_ROBOT = "compute_arm_ik"  # the service that the robot itself offers
-EVERY_NODE_PUBLISHES = "/parameter_events"
-OF_EVERYBODY = (EVERY_NODE_PUBLISHES, "/rosout", "/clock")
+ROBOT_SERVICE = "compute_arm_ik"  # the service that the robot itself offers
+RCLPY_TOPIC = "/parameter_events"
+COMMON_TOPICS = (RCLPY_TOPIC, "/rosout", "/clock")
 
 T = TypeVar("T")
 _SERVICE_TYPE = re.compile(r"(\w+)::srv::dds_::(\w+)_Request_")
@@ -49,7 +49,7 @@ class Graph:
 
     def has_another_node(self) -> bool:
         """Return whether there is another rclpy node than the grader's own."""
-        return self.count_publishers(EVERY_NODE_PUBLISHES) > 1
+        return self.count_publishers(RCLPY_TOPIC) > 1
 
     def count_publishers(self, topic: str) -> int:
         """Count the publishers of a topic."""
@@ -82,12 +82,12 @@ class Graph:
     def offered(self) -> list[str]:
         """List offered services as 'name [type]', up to MOST_SERVICES, without the robot's and rclpy's own ones."""
         nothing: list[tuple[str, list[str]]] = []
-        robots = self._node.resolve_service_name(OF_THE_ROBOT)
+        robots = self._node.resolve_service_name(ROBOT_SERVICE)
         found = self._ask(self._node.get_service_names_and_types, nothing)
         names = [
             (name, types[0] if len(types) == 1 else self._type_of_server(name) or types[0])
             for name, types in found[:MOST_NAMES]
-            if types and name != robots and not types[0].startswith(OF_EVERY_NODE)
+            if types and name != robots and not types[0].startswith(RCLPY_SERVICE_TYPES)
         ]
         offered = [f"{name} [{kind}]" for name, kind in names[:MOST_SERVICES] if self._is_offered(name)]
         more = len(found) - len(found[:MOST_NAMES]) + len(names) - len(names[:MOST_SERVICES])
@@ -106,7 +106,7 @@ class Graph:
         """Record what the student's node publishes and subscribes to, in the robot's namespace and elsewhere."""
         nothing: list[tuple[str, list[str]]] = []
         found = self._ask(self._node.get_topic_names_and_types, nothing)[:MOST_NAMES]
-        names = [name for name, _types in found if name not in OF_EVERYBODY and "/_action/" not in name]
+        names = [name for name, _types in found if name not in COMMON_TOPICS and "/_action/" not in name]
         own = self._node.get_namespace() + "/"  # the robot publishes the other topics of this namespace
         publishes = [name for name in names if name in robot_subscribes or not name.startswith(own)]
         subscribes = [name for name in names if name not in robot_subscribes]
@@ -145,10 +145,10 @@ class Graph:
     def _is_offered(self, service: str) -> bool:
         return self._ask(lambda: self._node.count_services(service), 0) > 0
 
-    def _ask(self, question: Callable[[], T], otherwise: T) -> T:
-        """Ask the middleware; if that fails in any way, count the failure and return `otherwise`."""
+    def _ask(self, query: Callable[[], T], otherwise: T) -> T:
+        """Query the middleware; if that fails in any way, count the failure and return `otherwise`."""
         try:
-            return question()
+            return query()
         except Exception as error:  # such as UnicodeDecodeError or RCLError, caused by a foreign name
             self._failures[f"{type(error).__name__}: {error}"[:200]] += 1
             return otherwise

@@ -2,8 +2,9 @@
 
 It runs as `python -m autograder.arena.host SOCKET`.
 
-An order is the specification of a scenario and the pipe for its events; it is answered when no process of the scenario
-is left. The clock's library is preloaded into this process, but only its forks follow a clock, that of their scenario.
+An order consists of the specification of a scenario and the pipe for its events. The host answers it when all processes
+of the scenario have ended. The library of the scaled clock is preloaded into this process, but only its forks use such
+a clock, each that of its scenario.
 """
 
 from __future__ import annotations
@@ -59,10 +60,10 @@ class Host:
         agent.start()
         os.close(events_fd)
         agent.join()
-        self._end_what_is_left()
+        self._end_remaining_processes()
 
     def _prepare(self, spec: ScenarioSpec) -> list[Phase]:
-        """Import and build what the scenario needs, unless it is there; return what that cost."""
+        """Import and build what the scenario needs, unless that was done before; return the phases with their costs."""
         scenarios_in(spec.scenario_file)
         phases = [INTERPRETER, self._stopwatch.lap("imports")]
         if spec.robot_options is not None:
@@ -70,7 +71,7 @@ class Host:
             phases.append(self._stopwatch.lap("model"))
         return phases
 
-    def _end_what_is_left(self) -> None:
+    def _end_remaining_processes(self) -> None:
         while left := descendants(os.getpid()):
             for pid in left:
                 with suppress(ProcessLookupError):

@@ -19,10 +19,10 @@ from autograder.arena.scripted_service import Reply, ScriptedService
 from autograder.arena.student import Student
 from autograder.arena.topics import ScriptedTopic
 
-FLOOD = 50  # messages within QUIET; no correct node sends as many
-QUIET = 0.25  # s on the arena's clock
-FLOODED = 15.0  # s on the arena's clock to wait for the end of a flood
-POLLING = 0.005  # s between two polls of a state without notification, such as the graph
+FLOOD = 50  # messages within QUIET_TIME; no correct node sends so many
+QUIET_TIME = 0.25  # s on the arena's clock
+FLOOD_TIMEOUT = 15.0  # s on the arena's clock to wait for the end of a flood
+POLL_PERIOD = 0.005  # s between two polls of a state without notification, such as the graph
 
 
 class Offering:
@@ -60,7 +60,7 @@ class Offering:
         while not condition():
             if time.monotonic() > deadline:
                 return False
-            time.sleep(POLLING)
+            time.sleep(POLL_PERIOD)
         return True
 
     def close(self) -> None:
@@ -71,10 +71,10 @@ class Offering:
 
     def _drain_messages(self) -> None:
         """Wait until a flood of messages is processed: evidence against the node may be queued behind it."""
-        deadline = time.monotonic() + FLOODED
+        deadline = time.monotonic() + FLOOD_TIMEOUT
         before = self._log.received
         while True:
-            self.wait(QUIET)
+            self.wait(QUIET_TIME)
             now = self._log.received
             if now - before < FLOOD:
                 return

@@ -1,4 +1,4 @@
-"""Poses that scenarios ask for and played servers report."""
+"""Poses for the goals of scenarios and the results of scripted servers."""
 
 from __future__ import annotations
 

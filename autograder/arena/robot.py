@@ -11,11 +11,11 @@ from autograder.arena.simulator import Simulator
 from humanoid_interfaces.msg import RobotState
 
 TIMEOUT = 30.0  # s on the arena's clock
-FALLING = 6.0  # s on the arena's clock, in which a robot that is knocked over has fallen
+FALL_TIMEOUT = 6.0  # s on the arena's clock, in which a robot that is knocked over has fallen
 
 
-class RobotTrouble(Exception):
-    """The simulator did not do what the scenario needs: our fault, never the student's."""
+class RobotUnavailable(Exception):
+    """The simulator does not provide what the scenario needs; the student's program is never the cause."""
 
 
 class Robot:
@@ -30,7 +30,7 @@ class Robot:
         """The simulator's state of the robot, at most 20 ms old."""
         latest = self._log.last(ev.RobotTruth)
         if latest is None:
-            raise RobotTrouble("no state of the robot was received from the simulator yet")
+            raise RobotUnavailable("no state of the robot was received from the simulator yet")
         return latest
 
     # -- commands -----------------------------------------------------------------------------------------------------
@@ -42,7 +42,7 @@ class Robot:
     def knock_over(self, impulse: Sequence[float]) -> None:
         """Push the torso (N·s in odom) so that the robot falls, and wait until it has fallen."""
         self.push(impulse)
-        self.wait_for(lambda robot: robot.mode == RobotState.FALLEN, FALLING)
+        self.wait_for(lambda robot: robot.mode == RobotState.FALLEN, FALL_TIMEOUT)
 
     def lean_on(self, force: Sequence[float], duration: float) -> None:
         """Lean on the torso with a force (N in odom) for `duration` s."""

@@ -7,7 +7,7 @@ from typing import Any
 
 
 class Robots:
-    """One robot for each set of options that a scenario asks for. Without one the simulator is not even imported."""
+    """One robot for each set of options that a scenario needs; the simulator is imported only to build one."""
 
     def __init__(self) -> None:
         self._built: dict[tuple[str, ...], Any] = {}

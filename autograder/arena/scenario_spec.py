@@ -72,7 +72,7 @@ def send_order(orders: socket.socket, spec: ScenarioSpec, events_fd: int) -> Non
 
 
 def receive_order(orders: socket.socket) -> tuple[ScenarioSpec, int] | None:
-    """Wait for an order; None when there will be no more."""
+    """Wait for an order and return it; None when the controller has closed the socket."""
     length, descriptors, _, _ = socket.recv_fds(orders, _LENGTH.size, 1)
     if len(length) < _LENGTH.size:
         return None

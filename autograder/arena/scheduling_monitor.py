@@ -16,7 +16,7 @@ PERIOD = 0.1  # s on the arena's clock
 
 @contextmanager
 def watch_scheduling(log: ArenaLog, student: Student) -> Iterator[None]:
-    """Record how late this process is woken, and how long the student's gets no processor, while the scenario runs."""
+    """Record, during the scenario, how late this process wakes up, and how long the student's waits for a processor."""
     over = threading.Event()
     threading.Thread(target=_sleep, args=(log, over), name="scheduling monitor", daemon=True).start()
     try:

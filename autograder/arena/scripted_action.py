@@ -26,7 +26,7 @@ from autograder.arena.bounded_reading import BoundedReading
 from autograder.arena.scripting import offer, pause, type_name
 
 EVERY_GOAL = bytes(16)  # the id in a request to cancel all of them
-DEPTH = 10  # of the feedback, as rclpy's ActionServer has it
+DEPTH = 10  # of the feedback publisher's queue, as in rclpy's ActionServer
 
 
 @dataclass(frozen=True)
@@ -158,7 +158,7 @@ class ScriptedAction:
         for publisher in (self._feedback, self._statuses):
             self._node.destroy_publisher(publisher)
 
-    # -- what the client asks for -------------------------------------------------------------------------------------
+    # -- requests of the client ---------------------------------------------------------------------------------------
 
     async def _on_goal(self, request: Any, response: Any) -> Any:
         goal_id = bytes(request.goal_id.uuid)
@@ -181,7 +181,7 @@ class ScriptedAction:
             goal = self._goals[goal_id] = _Goal(name, request.goal_id, script)
             self._publish_statuses()
             for task in (self._send_feedback, self._come_to_an_end):
-                self._do(task, goal)
+                self._start_task(task, goal)
         return response
 
     async def _on_result_request(self, request: Any, response: Any) -> Any:
@@ -227,7 +227,7 @@ class ScriptedAction:
         )
         return response
 
-    # -- the life of a goal -------------------------------------------------------------------------------------------
+    # -- execution of a goal ------------------------------------------------------------------------------------------
 
     async def _send_feedback(self, goal: _Goal) -> None:
         every = goal.script.every
@@ -261,7 +261,7 @@ class ScriptedAction:
                 await pause(self._node, script.ends_after)
                 self._finish(goal, GoalStatus.STATUS_CANCELED, script.result)
 
-        self._do(end, goal)
+        self._start_task(end, goal)
 
     def _finish(self, goal: _Goal, status: int, result: Any) -> None:
         if goal.finished.done() or self._withdrawn:
@@ -271,7 +271,7 @@ class ScriptedAction:
         self._publish_statuses()
         goal.finished.set_result(None)
         if goal.script.kept_for is not None:
-            self._do(self._forget, goal)
+            self._start_task(self._forget, goal)
 
     async def _forget(self, goal: _Goal) -> None:
         await pause(self._node, goal.script.kept_for or 0.0)
@@ -280,7 +280,7 @@ class ScriptedAction:
             self._log.append(ev.ResultForgotten(goal=goal.name))
             self._publish_statuses()
 
-    def _do(self, task: Callable[[_Goal], Any], goal: _Goal) -> None:
+    def _start_task(self, task: Callable[[_Goal], Any], goal: _Goal) -> None:
         executor = self._node.executor
         assert executor is not None  # an executor spins the grader's node during the whole scenario
         executor.create_task(task, goal)

@@ -100,7 +100,7 @@ class FeedbackSent(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class CancelReceived(Event):
-    """The student's client asked to cancel `goal`; empty: every goal."""
+    """The student's client requested to cancel `goal`; empty: every goal."""
 
     cancel: str
     action: str
@@ -128,7 +128,7 @@ class GoalFinished(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class ResultRequested(Event):
-    """The student's client asked for the result of a goal."""
+    """The student's client requested the result of a goal."""
 
     goal: str
 

@@ -28,7 +28,7 @@ def in_order(stage: ClientStage, arguments: Sequence[str], server: Server | None
 
 
 class World:
-    """The surroundings of a client: a server, and a user who types and presses Ctrl-C until the program has ended."""
+    """The environment of a client: a server, and a user who types and presses Ctrl-C until the program has ended."""
 
     def __init__(self, stage: ClientStage, name: str, action: Any, script: GoalScript | None) -> None:
         self._stage, self._name, self._action, self._script = stage, name, action, script

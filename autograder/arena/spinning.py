@@ -9,7 +9,7 @@ from rclpy.executors import Executor, ExternalShutdownException
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 
-FROM_OUTSIDE = (RuntimeError, UnicodeError, MemoryError)  # rclpy's own errors are RuntimeErrors
+RCLPY_ERRORS = (RuntimeError, UnicodeError, MemoryError)  # what rclpy can raise for an unreadable message
 
 
 def keep_spinning(executor: Executor, log: ArenaLog) -> None:
@@ -19,7 +19,7 @@ def keep_spinning(executor: Executor, log: ArenaLog) -> None:
             executor.spin_once()
         except ExternalShutdownException:
             return
-        except FROM_OUTSIDE:
+        except RCLPY_ERRORS:
             traceback.print_exc()
             log.drop("unreadable")
         except Exception as error:

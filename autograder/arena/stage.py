@@ -17,12 +17,12 @@ from rclpy.node import Node
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.bounded_reading import BoundedReading
-from autograder.arena.offering import POLLING, Offering
+from autograder.arena.offering import POLL_PERIOD, Offering
 from autograder.arena.phases import Phases
-from autograder.arena.robot import Robot, RobotTrouble
+from autograder.arena.robot import Robot, RobotUnavailable
 from autograder.arena.simulator import Simulator
 from autograder.arena.student import Student
-from autograder.arena.topics import HeardTopic
+from autograder.arena.topics import RecordedTopic
 from ros_runtime.reachability import wait_until_all_reachable
 from ros_runtime.recorded_client.action_client import ActionClient
 from ros_runtime.recorded_client.conversation import Conversation
@@ -31,11 +31,11 @@ from ros_runtime.recorded_client.service_client import ServiceClient
 
 # s, on a clock that still runs at scale 1:
 READY_TIMEOUT = 20.0  # for the node to offer the services and actions of the scenario
-COMPANY_TIMEOUT = 5.0  # for the remaining ones, once the node offers the first
-MATCHING_TIMEOUT = 10.0  # for robot and node to find each other's topics
-REACHING_TIMEOUT = 1.0  # a correct node may be slow at first, a faulty one never answers
-MOST_REACHED = 4  # nodes
-LOOKING = 0.1  # between two queries of all services on offer
+REMAINING_TIMEOUT = 5.0  # for the remaining ones, once the node offers the first
+MATCHING_TIMEOUT = 10.0  # for robot and node to discover each other's topics
+REACHING_TIMEOUT = 1.0  # for a first exchange of messages with the node; a faulty node never answers
+MOST_REACHED = 4  # nodes with which messages are exchanged
+OFFERS_PERIOD = 0.1  # between two queries of all services on offer
 CONNECTION_TIME = 0.05  # for the node to discover the clients in turn
 # s, on the arena's clock:
 CLEAN_EXIT_TIMEOUT = 5.0
@@ -97,12 +97,12 @@ class Stage(Offering):
         self._actions.append(client)
         return client
 
-    def listen(self, topic: str, message_type: Any, *, latched: bool = False, as_: str = "") -> HeardTopic:
+    def listen(self, topic: str, message_type: Any, *, latched: bool = False, as_: str = "") -> RecordedTopic:
         """Record what the student's node publishes on a topic; `latched`: subscribe with transient local.
 
         `as_` is the name in the record, by default the topic's; give one to tell two subscriptions of a topic apart.
         """
-        return HeardTopic(self._node, message_type, topic, self._log, latched=latched, as_=as_)
+        return RecordedTopic(self._node, message_type, topic, self._log, latched=latched, as_=as_)
 
     def parameters_of(self, service: ServiceClient) -> Parameters:
         """Make clients of the parameters of the node that offers a service, whatever its name."""
@@ -137,9 +137,9 @@ class Stage(Offering):
 
     @property
     def robot(self) -> Robot:
-        """The robot, which the scenario must have asked for."""
+        """The robot; raises if the scenario has none."""
         if self._robot is None:
-            raise RobotTrouble("this scenario has no robot; give its Scenario one (robot=())")
+            raise RobotUnavailable("this scenario has no robot; give its Scenario one (robot=())")
         return self._robot
 
     def interrupt_node(self) -> None:
@@ -158,14 +158,14 @@ class Stage(Offering):
             now = time.monotonic()
             if first_offer is None and now >= next_look:
                 first_offer = now if self._graph.offered() else None
-                next_look = now + LOOKING
+                next_look = now + OFFERS_PERIOD
             late = now - started > READY_TIMEOUT
-            incomplete = first_offer is not None and now - first_offer > COMPANY_TIMEOUT
+            incomplete = first_offer is not None and now - first_offer > REMAINING_TIMEOUT
             if late or incomplete or self._student.has_exited():
                 offered = self._graph.offered()
                 self._log.append(ev.NodeNotReady(missing=missing, offered=offered, waited=now - started))
                 raise NodeMissing
-            time.sleep(POLLING)
+            time.sleep(POLL_PERIOD)
 
     def _connect(self, parameters: Parameters) -> None:
         """Create the parameter clients for the node that offers the service; without such a node they never match."""
@@ -202,7 +202,7 @@ class Stage(Offering):
             self._graph.report_topics(peers.publishers)
 
     def _reach_node(self) -> None:
-        """Exchange messages with the student's node, so that no answer is lost on a client it has not discovered."""
+        """Exchange messages with the student's node, so that it has discovered all clients and no answer is lost."""
         services = [service.name for service in self._services]
         services += [f"{action.name}/_action/send_goal" for action in self._actions]
         owners = dict.fromkeys(owner for service in services for owner in self._graph.owners_of(service))

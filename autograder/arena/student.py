@@ -64,7 +64,7 @@ class Student:
         return self._running.wait(timeout)
 
     def count_from_now(self) -> None:
-        """Begin to measure processor time used and missed at the clock's final scale; a later start begins then."""
+        """Measure processor time used and missed from now on, at the clock's final scale, or from a later start on."""
         if self._watch:
             self._watch.count_from_now()
 

@@ -15,8 +15,8 @@ from autograder.isolation.student_process import StudentProcess
 from ros_runtime.workarounds.scaled_clock.clock import ScaledClock, real_monotonic_ns
 
 PERIOD = 0.1  # s of real time between two measurements, which read some files of every process
-BURST = 0.5  # s of real time over which the busy processors are counted
-WAIT = 1.0  # s on the arena's clock over which the waiting for a processor is counted
+BURST_TIME = 0.5  # s of real time, over which the number of busy processors is averaged
+WAIT_TIME = 1.0  # s on the arena's clock, over which the missed processor time is averaged
 
 
 class StudentLimitsMonitor:
@@ -43,7 +43,7 @@ class StudentLimitsMonitor:
         self._cpu = 0.0
         self._peak = 0.0
         self._starved: dict[int, float] = {}
-        self._lost = LostTime()
+        self._lost = MissedTime()
         self._cpu_before = 0.0
         self._in_time_since = time.monotonic()
         self._busy, self._losing = FastestGrowth(), FastestGrowth()
@@ -51,7 +51,7 @@ class StudentLimitsMonitor:
         threading.Thread(target=self._watch, name="student limits", daemon=True).start()
 
     def count_from_now(self) -> None:
-        """Begin to count what is used while the arena's clock runs at its scale."""
+        """Restart the measurements, because the arena's clock has reached its scale."""
         self._look()
         with self._looking:
             self._cpu_before, self._in_time_since = self._cpu, time.monotonic()
@@ -102,8 +102,8 @@ class StudentLimitsMonitor:
     def _look_at_growth(self) -> None:
         now = real_monotonic_ns() / 1e9
         self._lost.look(now, self._cpu, sum(self._starved.values()))
-        self._busy.look(now, self._cpu, BURST)
-        self._losing.look(now, self._lost.total, WAIT / self._clock.scale)
+        self._busy.look(now, self._cpu, BURST_TIME)
+        self._losing.look(now, self._lost.total, WAIT_TIME / self._clock.scale)
 
     def _excess(self, processes: list[int], memory: float) -> str:
         limits = self._limits
@@ -114,11 +114,11 @@ class StudentLimitsMonitor:
         return too_many_sockets(processes, limits, self._private_network)
 
 
-class LostTime:
-    """Sums the processor time that a program lacked, up to one full processor, while its processes had to wait.
+class MissedTime:
+    """Sums the processor time that a program missed, up to one full processor, while its processes had to wait.
 
-    A program that already gets one processor's worth of time, over all its processes, loses nothing: a correct one
-    needs no more, and its processes then wait for each other.
+    A program whose processes together get the time of one processor misses nothing: a correct program needs no more,
+    and its processes then wait for each other.
     """
 
     def __init__(self) -> None:

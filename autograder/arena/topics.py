@@ -11,10 +11,10 @@ from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
 from autograder.arena.bounded_reading import BoundedReading
 
-HEARD_DEPTH, SCRIPTED_DEPTH = 100, 10
+RECORDED_DEPTH, SCRIPTED_DEPTH = 100, 10
 
 
-class HeardTopic:
+class RecordedTopic:
     """Records the messages of one topic.
 
     `latched` subscribes with durability transient local: it also receives the last message published before, and does
@@ -30,7 +30,7 @@ class HeardTopic:
         self._reading = BoundedReading(log)
         self._latest: Any = None
         durability = DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
-        profile = QoSProfile(depth=HEARD_DEPTH, durability=durability)
+        profile = QoSProfile(depth=RECORDED_DEPTH, durability=durability)
         self._subscription = node.create_subscription(message_type, name, self._on_message, profile, raw=True)
 
     @property

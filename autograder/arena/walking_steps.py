@@ -22,7 +22,7 @@ from ros_runtime.recorded_client.goal import RESULT_TIMEOUT
 ROBOT_TOPICS_TIME = 1.0  # s for the first odom and robot_state to arrive
 END_TIMEOUT = 10.0  # s for the end of a goal that is cancelled, preempted or out of reach
 WALK_START_TIMEOUT = 5.0  # s in which a robot begins to walk
-COMING_NEAR = 15.0  # s
+APPROACH_TIMEOUT = 15.0  # s
 NEAR = 0.12  # m
 
 # from a pose and the action's limit: max_velocity (m/s) or tolerance (m)
@@ -52,7 +52,7 @@ class _Walker:
         self._stage, self._action, self._make_goal = stage, action, make_goal
         self._goals: dict[str, Goal] = {}
         self._poses: dict[str, PoseStamped] = {}
-        self._waited_in_vain = False
+        self._a_goal_timed_out = False
 
     def vocabulary(self) -> dict[str, Callable[..., object]]:
         return {
@@ -107,8 +107,8 @@ class _Walker:
     def arrive(self, name: str, patience: float = RESULT_TIMEOUT) -> None:
         """Wait `patience` s for the end of a goal, or END_TIMEOUT if an earlier goal has missed its timeout."""
         goal = self._goals[name]
-        if goal.accepted and not goal.wait_for_result(END_TIMEOUT if self._waited_in_vain else patience):
-            self._waited_in_vain = True
+        if goal.accepted and not goal.wait_for_result(END_TIMEOUT if self._a_goal_timed_out else patience):
+            self._a_goal_timed_out = True
 
     def end(self, name: str) -> None:
         """Wait for the end of a goal that was cancelled, preempted or put out of reach."""
@@ -124,16 +124,16 @@ class _Walker:
     # -- cancels ------------------------------------------------------------------------------------------------------
 
     def cancel(self, name: str) -> None:
-        """Ask to cancel a goal, and wait for the answer."""
+        """Request to cancel a goal, and wait for the answer."""
         self._goals[name].cancel().wait()
 
     def cancel_twice(self, name: str) -> None:
-        """Ask for the same cancel two times in a row."""
+        """Request the same cancel twice in a row."""
         for cancel in (self._goals[name].cancel(), self._goals[name].cancel()):
             cancel.wait()
 
     def cancel_at_once(self, name: str, x: float, y: float, yaw: float, limit: float = 0.0) -> None:
-        """Send a goal and ask to cancel it before it is answered; repeat if the cancel arrived before the goal."""
+        """Send a goal and request to cancel it before it is answered; repeat if the cancel arrived before the goal."""
         goal = self._send_pose(name, pose_at(x, y, yaw), limit)
         cancel = goal.cancel()
         cancel.wait()
@@ -152,14 +152,14 @@ class _Walker:
         """Wait until the robot is within a distance (m) of where a goal sends it."""
         aim = self._poses[name].pose.position
         self._stage.robot.wait_for(
-            lambda robot: math.hypot(robot.x - aim.x, robot.y - aim.y) < distance, COMING_NEAR
+            lambda robot: math.hypot(robot.x - aim.x, robot.y - aim.y) < distance, APPROACH_TIMEOUT
         )
 
     def settle(self, name: str) -> None:
         """Wait until the robot is near a goal's pose, and then until it stands or the goal has ended."""
         self.come_near(name, NEAR)
         self._stage.robot.wait_for(
-            lambda robot: self._goals[name].has_ended or robot.mode == RobotState.STANDING, COMING_NEAR
+            lambda robot: self._goals[name].has_ended or robot.mode == RobotState.STANDING, APPROACH_TIMEOUT
         )
 
     def cut_power(self) -> None:

@@ -1,16 +1,16 @@
-"""The words in which an exercise's checks are written: one import for authors.
+"""The API for authors of checks: one import provides all of it.
 
     from autograder.authoring import Scenario, check_of, expect, obligation, standard, whole_run
 
-`evidence` is a run as it was recorded, `diagnosis` says why something did not happen, `requirements` and `walking` hold
-what any server, client or walk must do. docs/write_an_exercise.md teaches them.
+`evidence` reads a recorded run, and `diagnosis` explains why something did not happen. `requirements` and `walking`
+contain what every server, client or walk must do. docs/write_an_exercise.md shows how to use them.
 """
 
 from autograder.authoring.checks import MAY_REST, RESTING, Check, Scenario, check, in_order, program
 from autograder.authoring.diagnosis.connections import (
-    lesson_on_hearing,
-    why_nothing_is_commanded,
-    why_nothing_is_heard,
+    lesson_on_subscribing,
+    why_no_command_arrives,
+    why_no_message_arrives,
 )
 from autograder.authoring.diagnosis.goal_diagnosis import error_name, lesson_on_the_end, why_rclpy_aborted
 from autograder.authoring.diagnosis.missing import Missing, held_up, not_shown, unseen
@@ -38,7 +38,7 @@ from autograder.authoring.requirements.client_checks import (
     started_at,
     why_not_this_status,
 )
-from autograder.authoring.requirements.falls import fall_after, require_fell_told, require_knocked_over
+from autograder.authoring.requirements.falls import fall_after, require_fall_reported, require_knocked_over
 from autograder.authoring.requirements.feedback import (
     end_of_feedback,
     require_feedback,

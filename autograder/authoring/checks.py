@@ -1,4 +1,4 @@
-'''What the author of a check writes: a function over transcripts, with its title as docstring.
+'''Checks and scenarios as authors write them. A check is a function of transcripts, and its docstring is its title.
 
 server_appears = standard.server_appears("the action walk_to", points=1, on=WALK)
 
@@ -24,8 +24,8 @@ from autograder.authoring.sequence import steps_until
 if TYPE_CHECKING:
     from autograder.authoring.obligation import Obligation
 
-MAY_REST = "--may-rest"  # option of a robot that is not integrated while it only stands
-RESTING = (MAY_REST,)  # the robot of a scenario that asks nothing of its body
+MAY_REST = "--may-rest"  # simulator option: physics pauses while the robot only stands
+RESTING = (MAY_REST,)  # simulator options of a scenario in which the robot never moves
 
 Judge = Callable[..., None]
 Inputs = Mapping[str, Any] | Callable[[random.Random], Mapping[str, Any]]
@@ -33,19 +33,20 @@ Inputs = Mapping[str, Any] | Callable[[random.Random], Mapping[str, Any]]
 
 @dataclass(frozen=True, eq=False)
 class Scenario:
-    """A stimulus by name, with its inputs: fixed, or drawn from a seeded generator when the submission is graded.
+    """A scenario function by name, with inputs that are fixed or drawn from a seeded generator during grading.
 
-    Each Scenario object is run once for a submission, however many checks judge it.
+    Each Scenario object runs once for a submission, even if several checks judge it.
 
     Attributes:
         name: of the function in the exercise's scenarios.py.
         inputs: its arguments, or a function that draws them from a generator.
         robot: options of the simulator; None: the scenario needs no robot.
-        student: a 'node' is started before the scenario and stays; a 'program' is started by it and ends by itself.
+        student: 'node': it starts before the scenario and runs until Ctrl-C; 'program': the scenario starts it, and it
+            ends by itself.
         namespace: ROS namespace of robot and student.
         parameters: ROS parameters that the student's program is started with.
-        timed: whether deadlines are judged. If not (compiling, a quiz), the clock is not sped up, and a run counts
-            however busy the machine is.
+        timed: whether deadlines are judged. If not (compiling, a quiz), the clock is not sped up, and a run on a busy
+            machine counts.
     """
 
     name: str
@@ -58,7 +59,7 @@ class Scenario:
 
     @property
     def is_light(self) -> bool:
-        """Whether it costs the machine next to nothing: no robot, or one that rests."""
+        """Whether it needs little processor time: it has no robot, or one that never moves."""
         return self.robot is None or MAY_REST in self.robot
 
     @property
@@ -85,21 +86,26 @@ def in_order(
     parameters: Mapping[str, Any] | None = None,
     **inputs: Any,
 ) -> Scenario:
-    """Return the scenario `in_order` with these steps; `inputs` are its other arguments."""
+    """Return a scenario of the function `in_order` with these steps; `inputs` are its other arguments."""
     all_inputs = {"steps": list(steps), **inputs}
     return Scenario("in_order", all_inputs, robot, namespace=namespace, parameters=parameters or {})
 
 
 @dataclass(eq=False)
 class Check:
-    """One check: `id` is the name of its variable, `on` are the scenarios it judges, `needs` the checks before it.
+    """One check of an exercise.
 
-    `see` is the lesson that its failures point to, unless one names another: CHAPTER#cell, or an address.
-    `hidden` is set when it is loaded: a check is hidden because it stands in hidden.py.
-    `clauses` are the numbers of the statement's clauses that it judges; `promise` is set when it is loaded: these
-    clauses in words.
-    `obligations` are what it is made of, if it was made by `check_of`: then `judge` takes one transcript and is applied
-    to each, so that only a scenario that failed is retried.
+    Attributes:
+        judge: raises a Failure; takes the transcripts of all scenarios, or, with `obligations`, one of them.
+        on: the scenarios that it judges.
+        needs: the checks that must pass first.
+        see: the lesson for its failures that name no other: CHAPTER#cell, or a URL.
+        id: the name of its variable.
+        hidden: whether it is defined in hidden.py; set by the loader.
+        clauses: the numbers of the statement's clauses that it judges.
+        promise: the text of these clauses; set by the loader.
+        obligations: given by `check_of`. `judge` is then called for each transcript, so that only the scenarios that
+            failed are retried.
     """
 
     title: str
@@ -115,8 +121,8 @@ class Check:
     obligations: tuple[Obligation, ...] = ()
 
     @property
-    def meets_any_fault(self) -> bool:
-        """Whether any fault of a submission may show in it: it judges obligations in sequences that are drawn."""
+    def can_catch_any_fault(self) -> bool:
+        """Whether any fault of a submission can make it fail: it judges obligations in drawn sequences."""
         return bool(self.obligations) and any(scenario.is_drawn for scenario in self.on)
 
     def run(self, transcripts: Sequence[Transcript]) -> None:
@@ -124,7 +130,7 @@ class Check:
 
         Raises:
             Failure: the submission is at fault.
-            CannotBeJudged: the record does not let anybody judge it.
+            CannotBeJudged: the record is not sufficient for a verdict.
         """
         if not self.obligations:
             self.judge(*transcripts)
@@ -145,10 +151,10 @@ def check(
     see: str = "",
     clauses: Sequence[int] = (),
 ) -> Callable[[Judge], Check]:
-    """Make a check of a function that is judged on the transcript of each scenario in `on`; it is worth `points`.
+    """Make a check, worth `points`, of the decorated function, which takes the transcript of each scenario in `on`.
 
-    `needs` are checks that must have passed; otherwise this one is reported as not run. `see` is the lesson that its
-    failures point to, such as "02_services#m9-why". `clauses` are those of the statement that it judges.
+    `needs` are checks that must pass first; otherwise this one is reported as not run. `see` is the lesson for its
+    failures, such as "02_services#m9-why". `clauses` are the numbers of the statement's clauses that it judges.
     """
 
     def make(judge: Judge) -> Check:
@@ -181,9 +187,9 @@ def check_by(
     obligations: Sequence[Obligation] = (),
     id: str = "",
 ) -> Check:
-    """Make a check of a function over transcripts; if it judges `obligations`, it takes one, and gets each.
+    """Make a check of a function of transcripts; with `obligations`, the function is called for one after the other.
 
-    Only a check that stands in a list needs an `id`: any other gets its variable's name.
+    Only a check in a list needs an `id`: any other gets the name of its variable.
     """
     return Check(
         title,
@@ -198,16 +204,16 @@ def check_by(
     )
 
 
-def checks_in(module: ModuleType, *, but: Sequence[Check] = ()) -> list[Check]:
-    """Return the checks that a module defines, in its order, also those in its lists; `but` are others' it imports.
+def checks_in(module: ModuleType, *, excluded: Sequence[Check] = ()) -> list[Check]:
+    """Return the checks that a module defines, in order, also those in lists; without the `excluded`, imported ones.
 
-    Each variable gives its check its name.
+    A check without an id gets the name of its variable.
     """
     found: list[Check] = []
     for name, value in vars(module).items():
         if isinstance(value, Check):
             value.id = value.id or name
         for one in value if isinstance(value, list | tuple) else (value,):
-            if isinstance(one, Check) and one not in found and one not in but:
+            if isinstance(one, Check) and one not in found and one not in excluded:
                 found.append(one)
     return found

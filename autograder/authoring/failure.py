@@ -1,4 +1,4 @@
-"""What a check raises: a failure, whose `help` is the "next" line of reports, or that there can be no grade."""
+"""The exceptions of checks: the submission is at fault, or it cannot be judged."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ class Failure(Exception):
     """A fault of the submission.
 
     Args:
-        expected: what the check asks for.
+        expected: what the check requires.
         observed: what the submission did instead.
-        help: one next step in plain words; reports print it in the line "next".
+        help: one next step in plain words; reports print it after "next".
         at: when it happened, s on the arena's clock.
-        see: the lesson it points to, such as "02_services#m9-why"; by default it is the check's.
+        see: the lesson to read, such as "02_services#m9-why"; by default that of the check.
 
-    `steps` are those of the scenario that led to it, if it is a sequence; they are set by the check.
+    If the scenario is a sequence, the check sets `steps` to the steps that led to the failure.
     """
 
     steps: Sequence[Sequence[Any]] = ()
@@ -33,11 +33,11 @@ class Failure(Exception):
 
 
 class CannotBeJudged(Exception):
-    """The arena did not do what the scenario says, and not because of the submission: there is no grade."""
+    """The arena did not carry out the scenario, and the submission is not the cause: there is no grade."""
 
 
 class NoOccasion(CannotBeJudged):
-    """The submission did nothing that lets an obligation be judged; if that stays so, it has not shown it."""
+    """The run had no occasion to judge an obligation. If the retries have none either, the check fails."""
 
 
 def expect(

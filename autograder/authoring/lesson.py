@@ -1,4 +1,4 @@
-"""The lesson that a failure points to: CHAPTER#cell, as in docs/coverage.md, or a URL of the author's."""
+"""The lesson that a failure refers to: CHAPTER#cell, as in docs/coverage.md, or a URL."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ def in_words(see: str) -> str:
 
 
 def is_there(see: str) -> bool:
-    """Return whether there is such a cell; an address is not looked up."""
+    """Return whether the cell exists; a URL is not checked."""
     chapter, _, cell = see.partition("#")
     return "://" in see or cell in _headings(chapter)
 
 
 @cache
 def _headings(chapter: str) -> dict[str, str]:
-    """Return, for each cell of a chapter, the heading it stands under; {} where there is no such chapter."""
+    """Return the heading above each cell of a chapter; {} if there is no such chapter."""
     path = CHAPTERS / f"{chapter}.ipynb"
     if not path.exists():
         return {}

@@ -1,15 +1,15 @@
-'''An exercise's model: what must hold of every answer, message and goal, whatever a scenario was made for.
+'''Obligations, the model of an exercise: what must hold for every answer, message and goal in any scenario.
 
 @obligation(1, of=calls("is_upright"))
 def tells_the_truth(call: Call) -> str | None:
     """`success` says whether the robot is on its feet"""
     mode = call.run.robot_at(call.sent.t).mode
     if mode == RobotState.OFF:
-        return None  # the clause says nothing about it
+        return None  # the clause does not cover this state
     call.expect("success", mode != RobotState.FALLEN, because="…", help="…")
-    return "fallen" if mode == RobotState.FALLEN else "upright"  # the situation in which it was judged
+    return "fallen" if mode == RobotState.FALLEN else "upright"  # the situation that was judged
 
-A check is one or more of them with a name, points and a lesson:
+A check consists of one or more obligations and has a name, points and a lesson:
 
 tells_that_it_stands = check_of(tells_the_truth, on=ASK, needs=server_appears)
 '''
@@ -30,19 +30,20 @@ from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure, NoOccasion
 from autograder.authoring.sequence import require_all_steps
 
-Situation = str  # in which an obligation was judged, as the table of clauses names it
+Situation = str  # what distinguishes an occasion from others, in words for the table of clauses
 
 
 @dataclass(frozen=True, eq=False)
 class Obligation:
-    """What a clause promises, as a requirement on each occasion of a run.
+    """A requirement from clauses of the statement on each occasion in a run: each call, each goal, or the run itself.
 
     Attributes:
-        name, sentence: of the function, and what it requires, in words.
-        clauses: the numbers of the statement's clauses that it holds.
-        occasions: finds in a run what it may be about: its calls, its goals, the run itself.
-        require: raises a Failure; returns the situation, or None where the obligation says nothing.
-        see: the lesson that a failure points to: CHAPTER#cell, or an address.
+        name: of the function.
+        sentence: what it requires, in words.
+        clauses: the numbers of the clauses.
+        occasions: finds the occasions in a run.
+        require: judges an occasion: raises a Failure or returns the situation; None: the obligation does not apply.
+        see: the lesson for a failure: CHAPTER#cell, or a URL.
     """
 
     name: str
@@ -53,7 +54,7 @@ class Obligation:
     see: str = ""
 
     def judge(self, run: Transcript) -> Counter[Situation]:
-        """Require it on every occasion of the run; return how often it was judged, by situation."""
+        """Judge every occasion in the run; return the number of judged occasions by situation."""
         situations = (self.require(occasion) for occasion in self.occasions(run))
         return Counter(situation for situation in situations if situation is not None)
 
@@ -61,9 +62,9 @@ class Obligation:
 def obligation(
     *clauses: int, of: Callable[[Transcript], Iterable[Any]], see: str = ""
 ) -> Callable[[Callable[[Any], Situation | None]], Obligation]:
-    """Make an obligation of a function whose docstring says what holds.
+    """Make an obligation of the decorated function, whose docstring says what must hold.
 
-    `of` finds the occasions in a run, `see` is the lesson that its failures point to.
+    `of` finds the occasions in a run; `see` is the lesson for failures.
     """
 
     def make(require: Callable[[Any], Situation | None]) -> Obligation:
@@ -95,7 +96,7 @@ def goals(run: Transcript) -> list[Goal]:
 
 
 def _require_sent(run: Transcript, answered: set[str], sent: Sequence[Any], key: str) -> None:
-    """Require that the record holds what was answered, too."""
+    """Require that the record contains each call or goal that was answered."""
     if lost := answered - {getattr(each, key) for each in sent}:
         raise unseen(run, f"the record lacks the {key} “{min(lost)}”, which was answered")
 
@@ -115,15 +116,15 @@ def check_of(
     see: str = "",
     to_its_end: bool = True,
 ) -> Check:
-    """Make a check that judges obligations in every scenario of `on`, each of which has to give rise to each of them.
+    """Make a check of obligations. In each scenario of `on`, each obligation must have an occasion and must hold.
 
     Args:
-        obligations: which all must hold.
-        points: for all of them; 1 unless said otherwise.
-        on: the scenarios; one in which the submission fails is retried alone.
-        needs: checks that must have passed.
-        title: of the check; by default the sentence of its first obligation.
-        see: the lesson that its failures point to; by default that of the obligation that fails, or of the first.
+        obligations: one or several.
+        points: for all of them together.
+        on: the scenarios; only those in which the submission failed are retried.
+        needs: checks that must pass first.
+        title: of the check; by default the sentence of the first obligation.
+        see: the lesson for failures; by default that of the obligation that failed, or of the first.
         to_its_end: whether every step of a scenario must have been carried out.
     """
     judged = (obligations,) if isinstance(obligations, Obligation) else tuple(obligations)

@@ -1,8 +1,8 @@
-"""What the author of an essay writes: the criteria by which a person marks it.
+"""The rubric of an essay: the criteria by which a person marks it.
 
     CRITERIA = (Criterion("pattern", "The pattern of each link", {3: "every link has …", 2: "…", 0: "…"}), …)
 
-They stand in the exercise's rubric.py, which takes the place of scenarios.py, checks.py and hidden.py.
+The exercise defines them in rubric.py, and has no scenarios.py, checks.py and hidden.py.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ Picture = Callable[[Mapping[str, str]], str | None]
 
 @dataclass(frozen=True)
 class Criterion:
-    """What earns how many points.
+    """One criterion with its levels.
 
     Attributes:
         id: the name of its cell, an identifier.
-        title: what is looked at.
-        levels: points and what earns them, from the most to the fewest.
+        title: what is marked.
+        levels: for each number of points, what earns it, from the most to the fewest.
     """
 
     id: str
@@ -30,7 +30,7 @@ class Criterion:
 
     @property
     def points(self) -> int:
-        """The most it can earn."""
+        """The points of its highest level."""
         return max(self.levels)
 
 
@@ -38,7 +38,7 @@ def criteria_in(module: ModuleType) -> Sequence[Criterion]:
     """Return the criteria of a rubric.
 
     Raises:
-        ValueError: there are none, two have one id, or one can earn nothing.
+        ValueError: there are none, two have the same id, or one can earn no points.
     """
     criteria = tuple(getattr(module, "CRITERIA", ()))
     if not criteria:
@@ -53,6 +53,6 @@ def criteria_in(module: ModuleType) -> Sequence[Criterion]:
 
 
 def picture_in(module: ModuleType) -> Picture | None:
-    """Return the rubric's `picture`, if it has one: of the files handed in it makes the SVG that the marker sees."""
+    """Return the rubric's function `picture`, if any: it draws the submitted files as an SVG for the marker."""
     picture: Picture | None = getattr(module, "picture", None)
     return picture

@@ -1,4 +1,4 @@
-"""The steps of a scenario that is a sequence: which of them a failure needs, and whether all were carried out."""
+"""Scenarios that are sequences of steps: whether all steps were carried out, and which ones led to a failure."""
 
 from __future__ import annotations
 
@@ -41,13 +41,13 @@ def require_all_steps(run: Transcript) -> None:
 
 
 def steps_until(run: Transcript, t: float | None) -> Sequence[Any]:
-    """Return the steps that were begun by `t` (s; None: all of them); none, if the scenario is no sequence."""
+    """Return the steps begun by time `t` (s; None: all steps); empty if the scenario is not a sequence."""
     steps = run.params.get(STEPS, ())
     return steps if t is None else steps[: 1 + sum(end < t for end in _ends(run))]
 
 
 def in_words(steps: Sequence[Sequence[Any]]) -> str:
-    """Return steps as a line to read: 'ask 1, set battery 0.35, ask 1'."""
+    """Return steps as a readable line: 'ask 1, set battery 0.35, ask 1'."""
     return ", ".join(
         " ".join([verb.replace("_", " "), *map(_shown, arguments)]) for verb, *arguments in steps
     )
@@ -64,7 +64,7 @@ def _shown(argument: Any) -> str:
 
 
 def _ends(run: Transcript) -> list[float]:
-    """Return when (s) each step ended, in order, up to the first that did not."""
+    """Return when (s) each step ended, in order, up to the first one that did not end."""
     steps = run.params.get(STEPS, ())
     marks = {mark.name: mark.t for mark in run.all(ev.Mark)}
     ends: list[float] = []

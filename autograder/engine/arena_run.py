@@ -19,7 +19,7 @@ from autograder.isolation.arena_process import ArenaReport, Ended, Kind
 from autograder.isolation.bubblewrap import SandboxError
 
 STARTUP_ALLOWANCE = 60.0  # s of wall time for the processes of an arena to start on a loaded machine
-LONGEST_SCENARIO = 150.0  # s on the arena's clock
+LONGEST_SCENARIO = 150.0  # s on the arena's clock, for the deadline
 
 
 class NotGraded(Exception):

@@ -1,6 +1,6 @@
 """Limits on what a student's processes send; a submission that exceeds them fails, as its record is incomplete.
 
-The engine asks before every check, so that no flood of messages can push out evidence and let a check pass.
+The engine requires this before every check, so that no flood of messages can push out evidence and let a check pass.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ PLURALS: Mapping[str, str] = {
     ev.MessageReceived.kind: "messages on a topic",
     ev.NodeOutput.kind: "lines of output",
     ev.TooLarge.kind: "messages that are too large",
-    "unread": "messages that nobody could read in time",
+    "unread": "messages that could not be read in time",
     "unreadable": "messages that cannot be read",
 }
 
@@ -71,7 +71,7 @@ def _require_nothing_too_large(run: Transcript) -> None:
             at=large.t,
         )
     refused = next((refused for refused in run.all(ev.RobotRefused) if refused.bytes > refused.limit), None)
-    if refused:  # whether it held up the robot or not: that depends on the machine, a grade does not
+    if refused:  # even if it did not delay the robot, because the grade must not depend on the machine
         raise Failure(
             expected=f"every message on {refused.topic[:60]} to have at most {_size(refused.limit)}",
             observed=f"one of {_size(refused.bytes)}; the robot did not read it",
@@ -90,8 +90,8 @@ def _require_nothing_dropped(run: Transcript, scenario: Scenario) -> None:
         what = PLURALS[dropped.what]
         read = sum(event.kind == dropped.what for event in run.events)
         raise Failure(
-            expected=f"a program that sends as many {what} as it has something to say",
-            observed=f"it sent {read + dropped.count:,} {what} in {dropped.seconds:.1f} s; {read:,} of them are read",
+            expected=f"a program that sends no more {what} than it needs",
+            observed=f"it sent {read + dropped.count:,} {what} in {dropped.seconds:.1f} s; only {read:,} were read",
             help=PRINTS if dropped.what == ev.NodeOutput.kind else FLOODS,
             at=dropped.t,
         )

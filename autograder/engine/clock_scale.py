@@ -13,9 +13,9 @@ from autograder.authoring.checks import Scenario
 from ros_runtime.workarounds.scaled_clock.clock import library_path
 
 USUAL = 5.0
-FAST = 10.0
-SLOWER = (5.0, 2.0, 1.0)  # to fall back to when the machine cannot keep up
-BUSY = 1.5  # runnable processes per core; two arenas alone do not reach it
+FAST_SCALE = 10.0
+SLOWER_SCALES = (5.0, 2.0, 1.0)  # to fall back to when the machine cannot keep up
+BUSY_LOAD = 1.5  # runnable processes per core; two arenas alone do not reach it
 
 
 def highest_scale() -> float:
@@ -41,17 +41,17 @@ class ClockScale:
             return self._asked
         usual = highest_scale()
         may_be_fast = usual > 1 and scenario.is_light and not self._was_late
-        return FAST if may_be_fast and _load_per_core() < BUSY else usual
+        return FAST_SCALE if may_be_fast and _load_per_core() < BUSY_LOAD else usual
 
     def retry_scale(self, before: float, too_fast: bool) -> float:
         """Return the scale to retry a scenario that ran at scale `before`; `too_fast`: take a lower one."""
         if too_fast:
-            return next((slower for slower in SLOWER if slower < before), 1.0)
+            return next((slower for slower in SLOWER_SCALES if slower < before), 1.0)
         return before if self._asked else min(before, USUAL)
 
     def attempts(self, scale: float) -> Sequence[float]:
         """Return the scales to try in turn until a run is on time; the last one, scale 1, is tried twice."""
-        return (scale, *(slower for slower in SLOWER if slower < scale), 1.0)
+        return (scale, *(slower for slower in SLOWER_SCALES if slower < scale), 1.0)
 
     def was_late(self) -> None:
         """Note a late run: later first runs use at most the usual scale."""

@@ -10,12 +10,12 @@ from autograder.authoring.rubric import Criterion, Picture, criteria_in, picture
 from autograder.engine.exercise import RUBRIC, UnusableExercise, exercise_module, exercises_folder
 from autograder.engine.verdict import CheckVerdict, Grade
 
-BY_HAND = "by hand"  # stands for the isolation in a grade without an arena
+BY_HAND = "by hand"  # the isolation in a grade without an arena
 
 
 @dataclass(frozen=True)
 class Essay:
-    """The criteria of one exercise, and how the files handed in are drawn for the marker."""
+    """The criteria of one essay, and the function that draws the submitted files for the marker."""
 
     name: str
     folder: Path
@@ -37,7 +37,7 @@ def load_essay(name: str) -> Essay:
         raise UnusableExercise(f"the rubric of {name} cannot be used: {error}") from error
 
 
-def left_to_a_person(essay: Essay, student: str) -> Grade:
+def unmarked_grade(essay: Essay, student: str) -> Grade:
     """Return the record of an essay that nobody has marked yet: status "to mark", without a score."""
     verdicts = [
         CheckVerdict(criterion.id, criterion.title, "to mark", 0, criterion.points)

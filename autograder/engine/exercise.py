@@ -1,13 +1,13 @@
 """An exercise as the controller sees it: a folder, and its checks, visible and hidden, in order.
 
     FOLDER/battery_service/battery_service.ipynb   the task, with its solution
-                           scenarios.py            what is done to the student's program; runs in the arena
-                           checks.py, hidden.py    how that is judged
-                           known/                  submissions whose verdict is known
+                           scenarios.py            stimuli for the student's program; runs in the arena
+                           checks.py, hidden.py    the checks that judge the transcripts
+                           known/                  submissions with known verdicts
 
-An essay, which a person marks, has rubric.py in the place of the checks and scenarios (`autograder.engine.essay`).
+An essay, which a person marks, has rubric.py instead of checks and scenarios (`autograder.engine.essay`).
 
-Other modules beside these are for checks.py and hidden.py, which import them as `from .judging import …`.
+checks.py and hidden.py may import further modules of the folder, as in `from .judging import …`.
 """
 
 from __future__ import annotations
@@ -135,7 +135,7 @@ def load_exercise(name: str, *, hidden: bool) -> Exercise:
     checks = visible = checks_in(exercise_module(name, CHECKS))
     has_hidden = (folder / f"{HIDDEN}.py").exists()
     if hidden and has_hidden:
-        also = checks_in(exercise_module(name, HIDDEN), but=visible)
+        also = checks_in(exercise_module(name, HIDDEN), excluded=visible)
         checks = visible + [replace(check, hidden=True) for check in also]
     statement = clauses_in(folder / f"{name}.ipynb")
     checks = [replace(check, promise=in_words(statement, check.clauses)) for check in checks]
@@ -213,8 +213,8 @@ def _require_scenarios(exercise: Exercise) -> None:
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom) and node.level:
             raise UnusableExercise(
-                f"{path}, line {node.lineno}, imports from its own folder, of which the arena sees this file alone: "
-                "write here what the scenarios need"
+                f"{path}, line {node.lineno}, imports from its own folder, but the arena can read only this file of "
+                "it: define here what the scenarios need"
             )
     defined = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
     wanted = {scenario.name: check.id for check in exercise.checks for scenario in check.on}

@@ -1,8 +1,8 @@
 """Grades one submission: runs the scenarios that its checks need, judges the transcripts, gives each check a verdict.
 
-A failed check is retried in a second arena and costs points only if it fails again: middleware and machines have bad
-moments, but a fault of the submission shows every time. What a check had to see and did not is looked for again on
-slower clocks, before the check counts as not graded.
+A failed check is retried in a second arena and costs points only if it fails again: middleware and machines fail now
+and then, but a fault of the submission shows every time. A check without the evidence that it needs is retried on
+slower clocks, before it counts as not graded.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from autograder.authoring.sequence import STEPS, steps_until
 from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.engine.clock_scale import ClockScale
 from autograder.engine.exercise import Exercise, exercises_folder
-from autograder.engine.judging import at_fault, judge, verdict_on
+from autograder.engine.judging import failed_scenarios, judge, verdict_on, verdict_without_run
 from autograder.engine.path_exposure import HiddenChecksRefused, require_hidden
-from autograder.engine.simulation_lag import OVERLOADED, STRAINED, lateness
+from autograder.engine.simulation_lag import MAX_LAG, RETRY_LAG, lateness
 from autograder.engine.stop import Stop, Stopped
 from autograder.engine.submission import Submission
 from autograder.engine.submission_arenas import SubmissionArenas
@@ -46,8 +46,8 @@ class GradingOptions:
         isolation: of the arenas; None: the best this machine has.
         recorded: have the transcripts hold whole postures of the robot, for recordings; no check sees them.
         first_alone: run no other scenario beside the first one, so that the first verdict comes soon.
-        at_first_look: ids of checks that are not retried after a failure; for audits, where no points are lost.
-        shortens: after a failure in a drawn sequence, find the shortest part of it that still fails.
+        checks_without_retry: ids of checks that are not retried after a failure; for audits, which award no points.
+        shortens: after a failure in a drawn sequence, find the shortest part of the sequence that still fails.
     """
 
     seed: int = 0
@@ -56,19 +56,19 @@ class GradingOptions:
     isolation: Isolation | None = None
     recorded: bool = False
     first_alone: bool = False
-    at_first_look: Collection[str] = ()
+    checks_without_retry: Collection[str] = ()
     shortens: bool = True
 
 
 @dataclass(frozen=True)
 class Watcher:
-    """What is called while a submission is graded, on any thread.
+    """Functions that are called while a submission is graded, on any thread.
 
     Attributes:
-        on_verdict: gets each verdict as soon as it is known.
-        on_retry: gets each check that did not pass and is now tried again.
-        on_evidence: gets the transcripts that a check was judged on.
-        on_running: gets the scenarios that run, whenever they change.
+        on_verdict: receives each verdict as soon as it is known.
+        on_retry: receives each check that did not pass and is retried.
+        on_evidence: receives each verdict from transcripts, with these transcripts.
+        on_running: receives the running scenarios whenever they change.
     """
 
     on_verdict: Callable[[CheckVerdict], None] = lambda verdict: None
@@ -116,7 +116,7 @@ class _Session:
         arenas: SubmissionArenas,
         stop: Stop | None,
     ) -> None:
-        assert options.isolation, "which arenas are there?"
+        assert options.isolation, "grade() sets it"
         self._submission = submission
         self._exercise = exercise
         self._options = options
@@ -139,7 +139,7 @@ class _Session:
                 while len(self._verdicts) < len(self._exercise.checks):
                     if self._stop.is_set():
                         raise Stopped
-                    self._settle()
+                    self._judge_ready_checks()
                     alone = first_alone and not any(run.done() for run in self._runs[0].values())
                     running = self._start(pool, 1 if alone else jobs)
                     if running:
@@ -156,13 +156,13 @@ class _Session:
             program=self._submission.fingerprint,
         )
 
-    def _settle(self) -> None:
-        """Give a verdict on every check that can be judged now."""
+    def _judge_ready_checks(self) -> None:
+        """Give a verdict on every check whose runs have ended, and on every check that needs no run."""
         for check in self._exercise.checks:
             if check.id in self._verdicts or not all(need.id in self._verdicts for need in check.needs):
                 continue
-            if unmet := [need.id for need in check.needs if self._verdicts[need.id].status != "passed"]:
-                self._conclude(self._not_run(check, unmet))
+            if verdict := verdict_without_run(check, self._verdicts):
+                self._conclude(verdict)
                 continue
             while check.id not in self._verdicts and all(run and run.done() for run in self._runs_of(check)):
                 self._judge(check)
@@ -186,7 +186,7 @@ class _Session:
         return list(running)
 
     def _wanted(self) -> list[tuple[Scenario, int]]:
-        """Return the scenarios to run and which attempts they are, first those whose checks' needs are met."""
+        """Return the scenarios to run with their attempt numbers, first those of checks whose needs have verdicts."""
         certain: list[tuple[Scenario, int]] = []
         possible: list[tuple[Scenario, int]] = []
         for check in self._exercise.checks:
@@ -202,21 +202,21 @@ class _Session:
 
     def _run_first(self, scenario: Scenario) -> Transcript:
         """Run a scenario for the first time."""
-        return self._run(scenario, self._scale.first_scale(scenario), OVERLOADED)
+        return self._run(scenario, self._scale.first_scale(scenario), MAX_LAG)
 
     def _run_again(self, scenario: Scenario, attempt: int) -> Transcript:
-        """Run a scenario again, at a scale the machine keeps up with: this run can cost points.
+        """Run a scenario again, at a scale that the machine keeps up with, because this run can cost points.
 
         A third or later attempt means that needed evidence was missing, so each uses a slower clock than the last.
         """
         before = self._runs[attempt - 1][scenario].result()
-        too_fast = attempt > 1 or lateness(before) > STRAINED
-        return self._run(scenario, self._scale.retry_scale(before.scale, too_fast), STRAINED)
+        too_fast = attempt > 1 or lateness(before) > RETRY_LAG
+        return self._run(scenario, self._scale.retry_scale(before.scale, too_fast), RETRY_LAG)
 
     def _run(self, scenario: Scenario, scale: float, tolerated: float) -> Transcript:
         """Run a scenario; repeat it at a lower scale if it was more than `tolerated` s late, or if its arena failed.
 
-        At scale 1, OVERLOADED is tolerated.
+        At scale 1, MAX_LAG is tolerated.
         """
         problem: NotGraded | None = None
         for attempt_scale in self._scale.attempts(scale):
@@ -236,7 +236,7 @@ class _Session:
                 if self._stop.is_set():
                     break
                 continue
-            allowed = tolerated if attempt_scale > 1 else OVERLOADED
+            allowed = tolerated if attempt_scale > 1 else MAX_LAG
             if not scenario.timed or lateness(transcript) <= allowed or why_the_robot_was_held_up(transcript):
                 return transcript
             self._scale.was_late()
@@ -260,10 +260,10 @@ class _Session:
             self._conclude(verdict_on(check, "error", help=f"Not graded: {error}"))
             return
         attempt = max(self._attempts[check.id, scenario] for scenario in check.on)
-        verdict = judge(check, transcripts, finally_=attempt + 1 >= MOST_ATTEMPTS["error"])
-        failed_at_once = verdict.status == "failed" and check.id in self._options.at_first_look
-        if verdict.status != "passed" and not failed_at_once:
-            again = at_fault(check, transcripts)
+        verdict = judge(check, transcripts, is_last_attempt=attempt + 1 >= MOST_ATTEMPTS["error"])
+        no_retry = verdict.status == "failed" and check.id in self._options.checks_without_retry
+        if verdict.status != "passed" and not no_retry:
+            again = failed_scenarios(check, transcripts)
             for scenario in again:
                 self._attempts[check.id, scenario] += 1
             if all(self._attempts[check.id, each] < MOST_ATTEMPTS[verdict.status] for each in again):
@@ -302,12 +302,6 @@ class _Session:
             if verdict.status == "failed":
                 return verdict, runs
         return None
-
-    def _not_run(self, check: Check, unmet: Sequence[str]) -> CheckVerdict:
-        title = self._verdicts[unmet[0]].title
-        if any(self._verdicts[need].status == "error" for need in unmet):
-            return verdict_on(check, "error", help=f"Not graded, because “{title}” was not graded.")
-        return verdict_on(check, "not run", help=f"Needs a check that did not pass: “{title}”.")
 
     def _conclude(self, verdict: CheckVerdict) -> None:
         self._verdicts[verdict.id] = verdict

@@ -6,7 +6,7 @@ additions that Jupyter, browsers, file managers and cloud drives make for copies
 - readable work, then unreadable files, then the untouched starter;
 - the later hand-in, if the platform gives the order;
 - the smaller folder depth, so that a copy in old/ is not chosen;
-- the later modification, if the times differ by more than ONE_TIME (a clone or an archive gives all files one time);
+- the later modification, if the times differ by more than TIME_TOLERANCE (a clone gives all files the same time);
 - the notebook before the file that it writes, and the exact name before a copy's.
 """
 
@@ -31,10 +31,12 @@ from autograder.engine.submission import (
     sources_of,
 )
 
-ONE_TIME = 60.0  # s; files that differ by less were written together
-ANY_NAME = 2  # value of `Named.copy` for a name that does not tell the exercise; the folder or an option does
+TIME_TOLERANCE = 60.0  # s; modification times that differ by less count as the same
+ANY_NAME = (
+    2  # value of `Named.copy` if the exercise is known from the folder or an option, not from the file's name
+)
 MOST_FOLDERS = 6  # levels of folders that are searched below a student's folder
-NOT_THEIRS = ("__MACOSX", "__pycache__", "node_modules", "site-packages")  # folders that tools create
+TOOL_FOLDERS = ("__MACOSX", "__pycache__", "node_modules", "site-packages")  # folders that tools create
 _COPY = "copy|copie|copia|cópia|kopie|kopia|kopi|kopio|kopya|копия|másolat|副本|コピー|복사본"
 _OF = "of|von|de|di|da|van|av|af|z"
 _KINDS = re.compile(r"(?P<stem>.+?)(?P<kind>\.\w+?)(?:\.txt|\.json|(?P=kind))?", re.IGNORECASE)
@@ -86,7 +88,7 @@ class Names:
         return Named(exercise, own, -int(numbers[-1]) if numbers else 1)
 
     def any_of(self, exercise: str, name: str) -> Named | None:
-        """Return the exercise's notebook or program that a file of any name stands for, by its suffix; else None."""
+        """Return the exercise's notebook or program, by its suffix, for a file of any name; else None."""
         kind = PurePath(name).suffix.lower()
         own = [f"{exercise}.ipynb", *(self.files[exercise] if len(self.files[exercise]) == 1 else ())]
         return next((Named(exercise, one, ANY_NAME) for one in own if PurePath(one).suffix == kind), None)
@@ -229,7 +231,7 @@ def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
     rest = _least(rest, lambda one: -one.turn)
     rest = _least(rest, lambda one: one.depth)
     newest = max(one.changed for one in rest)
-    rest = [one for one in rest if one.changed > newest - ONE_TIME]
+    rest = [one for one in rest if one.changed > newest - TIME_TOLERANCE]
     chosen = min(rest, key=lambda one: (not one.is_notebook, one.copy, str(one.path)))
 
     def why(one: Candidate) -> str:
@@ -241,7 +243,7 @@ def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
             return f"was handed in again as {chosen.path}"
         if one.depth != chosen.depth:
             return f"lies deeper than {chosen.path}"
-        if one.changed <= newest - ONE_TIME:
+        if one.changed <= newest - TIME_TOLERANCE:
             return f"is older than {chosen.path}"
         return f"comes after {chosen.path}" + (
             ", the notebook" if chosen.is_notebook > one.is_notebook else ""
@@ -325,7 +327,7 @@ def _visible_files(folder: Path, depth: int, names: Names) -> Iterator[Path]:
     """Yield all entries that are not folders, and folders with a file's name, down to `depth` levels."""
     deeper: list[Path] = []
     for path in sorted(folder.iterdir()):
-        if path.name.startswith(".") or path.name in NOT_THEIRS:
+        if path.name.startswith(".") or path.name in TOOL_FOLDERS:
             continue
         if path.is_symlink() or not path.is_dir() or names.of(path.name):
             yield path

@@ -1,9 +1,9 @@
-"""Judges a check on the transcripts it asks for: a pure function."""
+"""Decides a check's verdict, as a pure function: from its transcripts, or from the verdicts on the checks it needs."""
 
 from __future__ import annotations
 
 import traceback
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -21,11 +21,11 @@ from autograder.engine.verdict import CheckStatus, CheckVerdict
 LOG_LINES = 40
 
 
-def judge(check: Check, transcripts: Sequence[Transcript], *, finally_: bool = False) -> CheckVerdict:
+def judge(check: Check, transcripts: Sequence[Transcript], *, is_last_attempt: bool = False) -> CheckVerdict:
     """Judge a check on one transcript of each of its scenarios.
 
-    The verdict is 'passed', 'failed' or 'error'. 'error': the arena or the check itself failed, or the program gave
-    no answer that the check could judge; in the last attempt (`finally_`) the latter is 'failed'.
+    The verdict is 'passed', 'failed' or 'error'. It is an error if the arena or the check itself failed, or if the
+    program gave no answer that the check could judge. The last of these is a failure if `is_last_attempt`.
     """
     log = "\n".join(_log(transcript) for transcript in transcripts)
     try:
@@ -41,30 +41,44 @@ def judge(check: Check, transcripts: Sequence[Transcript], *, finally_: bool = F
             robot_time=failure.at,
             log=log,
         )
-    except NoOccasion as nothing:
-        if finally_:
+    except NoOccasion as requirement:
+        if is_last_attempt:
             return verdict_on(
                 check,
                 "failed",
-                expected=f"an answer that shows this: {nothing}",
-                observed="none, in any of its answers",
+                expected=f"an answer from which this can be judged: {requirement}",
+                observed="none of its answers allows that",
                 help=_with_lesson(
-                    "Fix what the other checks report first: without such an answer this cannot be judged.",
+                    "Fix what the other checks report first: without such an answer this check cannot pass.",
                     check.see,
                 ),
                 log=log,
             )
-        return verdict_on(check, "error", help=f"Not graded: nothing showed whether {nothing}", log=log)
-    except CannotBeJudged as trouble:
-        return verdict_on(check, "error", help=f"Not graded: {trouble}", log=log)
-    except Exception:  # a check that breaks is our fault and must cost the student nothing
+        return verdict_on(check, "error", help=f"Not graded: nothing showed whether {requirement}", log=log)
+    except CannotBeJudged as reason:
+        return verdict_on(check, "error", help=f"Not graded: {reason}", log=log)
+    except Exception:  # a check that raises is the grader's fault, and must cost the student no points
         trace = traceback.format_exc()
         return verdict_on(check, "error", help=f"Not graded: the check itself failed.\n{trace}", log=log)
     return verdict_on(check, "passed", points=check.points, log=log)
 
 
-def at_fault(check: Check, transcripts: Sequence[Transcript]) -> list[Scenario]:
-    """Return the scenarios in which a check does not pass; all its scenarios if it has no obligations."""
+def verdict_without_run(check: Check, verdicts: Mapping[str, CheckVerdict]) -> CheckVerdict | None:
+    """Return the verdict on a check if one that it needs did not pass; None if it must be judged.
+
+    It is 'error' if a needed check could not be judged, else 'not run'. `verdicts` are by the checks' ids.
+    """
+    unmet = [verdicts[need.id] for need in check.needs if verdicts[need.id].status != "passed"]
+    if not unmet:
+        return None
+    title = unmet[0].title
+    if any(verdict.status == "error" for verdict in unmet):
+        return verdict_on(check, "error", help=f"Not graded, because “{title}” was not graded.")
+    return verdict_on(check, "not run", help=f"Needs a check that did not pass: “{title}”.")
+
+
+def failed_scenarios(check: Check, transcripts: Sequence[Transcript]) -> list[Scenario]:
+    """Return the scenarios in which a check did not pass; all its scenarios if it has no obligations."""
     if not check.obligations:
         return list(check.on)
     alone = (
@@ -83,7 +97,7 @@ def _with_lesson(help: str, see: str) -> str:
 
 
 def verdict_on(check: Check, status: CheckStatus, *, points: float = 0, **found: Any) -> CheckVerdict:
-    """Return the record of what a check found: `found` are the other fields of a `CheckVerdict`."""
+    """Return the verdict on a check; `found` are further fields of `CheckVerdict`."""
     of_the_check: dict[str, Any] = {
         "max_points": check.points,
         "hidden": check.hidden,

@@ -27,7 +27,7 @@ def require_hidden(hidden: Iterable[Path], shown: Iterable[str | Path] | None = 
 
     Args:
         hidden: solutions, hidden checks, submissions, grades; they need not exist yet.
-        shown: the paths that sandboxes can read; None: those of students' sandboxes on this machine.
+        shown: the paths that sandboxes can read; None: those that students' sandboxes can read on this machine.
 
     Raises:
         HiddenChecksRefused: a hidden path lies in a readable one.

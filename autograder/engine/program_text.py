@@ -64,7 +64,7 @@ def text_of(name: str, content: bytes) -> str:
     """Return the text of the file `name`, in the encoding that a .py file declares, else in UTF-8.
 
     Raises:
-        NoProgram: it is no text, or no program.
+        NoProgram: it is not text, or not a program.
     """
     if what := next((what for sign, what in _WHAT_BYTES_ARE if content.startswith(sign)), None):
         raise NoProgram(what)

@@ -5,17 +5,17 @@ from __future__ import annotations
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 
-STRAINED = 0.15  # s of lag tolerated in a retry
-OVERLOADED = 0.5  # s of lag tolerated in any run that is judged
-SPARE = 0.5  # share of the waiting time for a missing node that may be lost; a correct node needs a fifth of that time
+RETRY_LAG = 0.15  # s of lag tolerated in a retry
+MAX_LAG = 0.5  # s of lag tolerated in any run that is judged
+SPARE = 0.5  # share of the wait for a missing node that may be lost; a correct node appears in a fifth of the wait
 
 
 def lateness(transcript: Transcript) -> float:
     """Return the worst lag (s, arena's clock) of the simulator, once the node was ready.
 
-    Without a robot: the longest delay of the agent's wake-ups or, if larger, the processor time that the program missed
-    in its worst second. The sum over a run is not used: 2 s lost in small parts over 30 s delay no checked event. If
-    the node never appeared: the time lost in excess of SPARE times the waiting time.
+    Without a robot, it is the longest delay of the agent's wake-ups or, if larger, the processor time that the program
+    missed in its worst second. Sums over a run are not used: 2 s lost in small parts over 30 s delay no event that is
+    checked. If the node never appeared, it is the time lost in excess of SPARE times the waiting time.
     """
     if absent := transcript.first(ev.NodeNotReady):
         lost = [robot.lag for robot in transcript.ground_truth]

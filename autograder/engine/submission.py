@@ -92,7 +92,7 @@ def read_submission(path: Path, exercise: str, student: str = "you") -> Submissi
 
 
 def sources_of(name: str, content: bytes, exercise: str, path: PurePath) -> dict[str, str]:
-    """Return the texts of the exercise's files that the file `name` holds, which is one of them or the notebook.
+    """Return the texts of the exercise's files in the file `name`: its own, or those that a notebook writes.
 
     Raises:
         UnusableSubmission: it cannot be read; the message calls it `path`.
@@ -140,7 +140,7 @@ def _written_by(text: str, names: tuple[str, ...], path: PurePath) -> dict[str, 
 
 
 def _file_of(name: str, files: Mapping[str, str]) -> str | None:
-    """Return the text of a file; if the notebook writes it elsewhere or in other capitals alone, of the last one."""
+    """Return the text of a file; the last one, if the notebook writes it only to other folders or in other capitals."""
     elsewhere = [text for path, text in files.items() if PurePath(path).name.lower() == name.lower()]
     return files.get(name, elsewhere[-1] if elsewhere else None)
 
@@ -150,7 +150,7 @@ def read_bytes(path: Path, limit: int, called: object) -> bytes:
     try:
         _require_at_most(limit, path.stat().st_size, str(called))
         return path.read_bytes()
-    except OSError as error:  # a folder of that name, or nobody may read it
+    except OSError as error:  # such as a folder of that name, or a file without permission to read it
         raise UnusableSubmission(f"{called} cannot be read: {error.strerror}") from error
 
 

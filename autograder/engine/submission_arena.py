@@ -1,7 +1,7 @@
-"""The controller's handle of an arena: it sends scenarios one after another and gets their events back.
+"""The controller's handle of an arena: it sends scenarios one after another and receives their events.
 
-No student's submission sees anything of another, because no arena serves two. Within an arena each scenario has
-processes, a ROS domain and a working folder of its own, and begins after everything of the one before has ended.
+An arena serves one submission, so that no submission can see another. Within an arena each scenario has processes, a
+ROS domain and a working folder of its own, and begins after all processes of the previous one have ended.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ from ros_runtime.workarounds.scaled_clock.clock import preload_variables
 
 REPORT_LIMIT = 64 * 2**20  # bytes of events of one scenario
 LIMITS = ArenaLimits(deadline_s=120.0)  # deadline for the arena's start; each scenario sets its own
-IDLE = 3600.0  # s an arena may wait for its next scenario
-_LOOK = 0.1  # s between two checks of `stop`
-_SWEEPING = 15.0  # s for the processes of a scenario to end
+IDLE_TIMEOUT = 3600.0  # s for which an arena may wait for its next scenario
+_POLL_PERIOD = 0.1  # s between two checks of `stop`
+_END_TIMEOUT = 15.0  # s for the processes of a scenario to end
 
 
 class ArenaEnded(Exception):
@@ -98,7 +98,7 @@ class SubmissionArena:
                 os.close(write_end)
             report = self._read(events.fileno(), stop)
         self._await_the_end_of_its_processes(report, stop)
-        self._process.allow(IDLE)
+        self._process.allow(IDLE_TIMEOUT)
         return report
 
     def close(self) -> ArenaReport:
@@ -114,7 +114,7 @@ class SubmissionArena:
                 raise ArenaEnded(self._process.kill())
             if self._process.poll() and not _is_readable(fd, 0):
                 raise ArenaEnded(self._process.wait(), bytes(report))
-            if not _is_readable(fd, _LOOK):
+            if not _is_readable(fd, _POLL_PERIOD):
                 continue
             chunk = os.read(fd, 2**20)
             if not chunk:
@@ -123,11 +123,11 @@ class SubmissionArena:
         raise ArenaEnded(self._process.kill())
 
     def _await_the_end_of_its_processes(self, report: bytes, stop: Stop | None) -> None:
-        deadline = time.monotonic() + _SWEEPING
+        deadline = time.monotonic() + _END_TIMEOUT
         while time.monotonic() < deadline and not (stop and stop.is_set()):
             if self._process.poll():
                 raise ArenaEnded(self._process.wait(), report)
-            if _is_readable(self._orders.fileno(), _LOOK):
+            if _is_readable(self._orders.fileno(), _POLL_PERIOD):
                 with suppress(OSError):
                     if self._orders.recv(len(DONE)) == DONE:
                         return

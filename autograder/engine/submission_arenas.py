@@ -29,7 +29,7 @@ class ArenasUsed:
 class SubmissionArenas:
     """A pool of arenas as a context manager, which closes all arenas it has opened.
 
-    Without namespaces an arena serves one scenario, because leftovers of one could not be told from the next.
+    Without namespaces an arena serves one scenario, because leftovers of one scenario could disturb the next.
     """
 
     def __init__(self, scenario_file: Path, kind: Kind | None = None) -> None:
@@ -41,7 +41,7 @@ class SubmissionArenas:
         self._used = ArenasUsed()
 
     def open_ahead(self) -> None:
-        """Begin to open an isolated arena in the background, unless isolation is switched off."""
+        """Begin to open an isolated arena in the background; do nothing if isolation is switched off."""
         if os.environ.get(ISOLATION_VARIABLE) in (Kind.NONE, Kind.ANOTHER_USER):
             return
         with ThreadPoolExecutor(1) as pool:
@@ -90,7 +90,7 @@ class SubmissionArenas:
             return self._idle.pop() if self._idle else None
 
     def _take_the_one_ahead(self) -> None:
-        """Wait for the arena that is being opened; if that fails, the next one will say why."""
+        """Wait for the arena that is being opened in the background; if that fails, opening the next one will raise."""
         with self._lock, suppress(SandboxError):
             ahead, self._ahead = self._ahead, None
             if ahead:

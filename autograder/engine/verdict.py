@@ -45,7 +45,7 @@ class CheckVerdict:
 
 @dataclass(frozen=True)
 class Grade:
-    """Every verdict on one submission. One check that could not be judged makes the whole not graded.
+    """Every verdict on one submission. One check that could not be judged makes the submission not graded.
 
     `seed` drew the inputs of its scenarios; None for an essay, and in records of an earlier version. `program` is the
     fingerprint of what was graded; "" where it could not be read.
@@ -61,7 +61,7 @@ class Grade:
 
     @property
     def status(self) -> GradeStatus:
-        """'not graded' when the grader failed, never the student; 'to mark' while points are a person's to give."""
+        """'not graded' if the grader failed, never due to the student; 'to mark' until a person gives the points."""
         broken = self.reason or not self.checks or any(check.status == "error" for check in self.checks)
         if broken:
             return "not graded"
@@ -69,7 +69,7 @@ class Grade:
 
     @property
     def why_not_graded(self) -> str:
-        """The grader's reason in a line: for the whole, or for the first check that it could not judge."""
+        """The grader's reason in one line: that of the submission, or of the first check that it could not judge."""
         reasons = [self.reason, *(check.help for check in self.checks if check.status == "error")]
         first = next((reason.splitlines()[0] for reason in reasons if reason), "")
         return first.removeprefix("Not graded: ")

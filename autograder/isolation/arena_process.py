@@ -91,7 +91,7 @@ class ArenaProcess:
         return self._report.result() if self._report.done() else None
 
     def wait(self, timeout: float | None = None) -> ArenaReport:
-        """Wait for the end, which the arena's own deadline brings. Raises TimeoutError after `timeout` s."""
+        """Wait for the end, at the latest at the arena's deadline. Raises TimeoutError after `timeout` s."""
         return self._report.result(timeout)
 
     def kill(self) -> ArenaReport:
@@ -100,7 +100,7 @@ class ArenaProcess:
         return self.wait()
 
     def allow(self, seconds: float) -> None:
-        """Set the deadline anew, so many seconds from now."""
+        """Set the deadline to this number of seconds from now."""
         self._deadline = time.monotonic() + seconds
 
     def _live(self) -> None:

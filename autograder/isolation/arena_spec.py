@@ -9,7 +9,7 @@ from pathlib import Path
 
 from autograder.isolation.limits import ArenaLimits
 
-ISOLATION_VARIABLE = "COURSE_ISOLATION"  # inside an arena: its kind; outside: the kind the user asks for
+ISOLATION_VARIABLE = "COURSE_ISOLATION"  # inside an arena: its kind; outside: the kind that the user selects
 
 
 class Kind(str, Enum):

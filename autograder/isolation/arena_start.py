@@ -42,18 +42,18 @@ class RunningArena:
         process: subprocess.Popen[bytes],
         root_pid: int,
         end_pidfd: int,
-        gentle: bool,
+        under_reaper: bool,
         memory_group: MemoryGroup | None = None,
     ) -> None:
         self.process = process  # the child process that the controller has to wait for
         self.memory_group = memory_group  # of all processes
         self.root_pid = root_pid  # root of the arena's process tree
         self.end_pidfd = end_pidfd  # readable when the root has ended, and with it everything below
-        self._gentle = gentle
+        self._under_reaper = under_reaper
 
     def end(self) -> bool:
         """End every process; True when it is certain that they are gone."""
-        if self._gentle:  # the reaper ends its tree on SIGTERM; SIGKILL would leave orphans
+        if self._under_reaper:  # the reaper ends its tree on SIGTERM; SIGKILL would leave orphans
             self.process.terminate()
         else:
             with suppress(ProcessLookupError):
@@ -65,7 +65,9 @@ class RunningArena:
         if not ended_within(self.end_pidfd, _END_TIMEOUT):
             self.process.kill()
             return False
-        return not self._gentle or self.process.wait() >= 0  # a reaper that was killed may have left orphans
+        return (
+            not self._under_reaper or self.process.wait() >= 0
+        )  # a reaper that was killed may have left orphans
 
 
 def start_with_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
@@ -88,7 +90,7 @@ def start_with_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:
     stack.callback(os.close, started.init_pidfd)
     _write_stdin(started.process, spec.stdin)
     return RunningArena(
-        started.process, started.init_pid, started.init_pidfd, gentle=False, memory_group=memory_group
+        started.process, started.init_pid, started.init_pidfd, under_reaper=False, memory_group=memory_group
     )
 
 
@@ -125,7 +127,7 @@ def start_without_namespaces(spec: ArenaSpec, stack: ExitStack, kind: Kind = Kin
     pidfd = os.pidfd_open(process.pid)
     stack.callback(os.close, pidfd)
     _write_stdin(process, spec.stdin)
-    return RunningArena(process, process.pid, pidfd, gentle=True)
+    return RunningArena(process, process.pid, pidfd, under_reaper=True)
 
 
 def _describe(sandbox: Sandbox, spec: ArenaSpec, paths: list[tuple[str, str]]) -> None:

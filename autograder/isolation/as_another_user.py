@@ -1,14 +1,13 @@
-"""Becomes a user that owns nothing, then becomes the program it was given. Only for root.
+"""Switches from root to a user that owns nothing, and then executes the given program.
 
-bubblewrap cannot nest when the outer one runs as root, so root must step down first. What the sandbox is to
-show may lie below folders the new user cannot enter (/root) or be readable by root only (umask 077); so, in a
-mount namespace of its own, this program first mounts each such path again at a place everyone can reach, with
-its owner mapped to the new user. Nothing is changed on disk, and the mounts vanish with the last process of
-the sandbox.
+bubblewrap sandboxes cannot be nested when the outer one runs as root, so root must drop its privileges first. The
+paths that the sandbox has to show may be in folders that the new user cannot enter (/root), or be readable by root only
+(umask 077). So this program first mounts each of them again, in a mount namespace of its own: at a place that everyone
+can reach, with its owner mapped to the new user. Nothing changes on disk, and the mounts disappear with the last
+process of the sandbox.
 
-Run as `python -I -S as_another_user.py PLAN PROGRAM ARGUMENTS…`, where PLAN is JSON: the id of the process
-that starts it ("parent"), a folder to mount on ("staging") and the host paths ("paths"); path number n
-appears as <staging>/<n>.
+Run as `python -I -S as_another_user.py PLAN PROGRAM ARGUMENTS…`, where PLAN is JSON: the id of the process that starts
+it ("parent"), a folder to mount on ("staging") and the host paths ("paths"); path number n appears as <staging>/<n>.
 """
 
 from __future__ import annotations
@@ -39,22 +38,22 @@ _libc = ctypes.CDLL(None, use_errno=True)
 
 
 def main() -> None:
-    """Mount, step down, go on as the program."""
+    """Mount the paths, drop root's privileges, and execute the program."""
     plan = json.loads(sys.argv[1])
     try:
-        _step_down(plan["paths"], plan["staging"])
+        _drop_privileges(plan["paths"], plan["staging"])
     except OSError as error:
-        sys.exit(f"root could not step down: {error}")
+        sys.exit(f"root could not drop its privileges: {error}")
     if not die_with_parent(plan["parent"]):
-        sys.exit("the process that asked for this sandbox has gone")
+        sys.exit("the process that started this sandbox has ended")
     os.execv(sys.argv[2], sys.argv[2:])
 
 
-def _step_down(paths: list[str], staging: str) -> None:
+def _drop_privileges(paths: list[str], staging: str) -> None:
     user = unused_id()
     try:
         _check(_libc.unshare(_CLONE_NEWNS), "unshare")
-    except PermissionError:  # root of a container: what this user cannot read stays hidden
+    except PermissionError:  # root of a container: paths that the new user cannot read stay unreadable
         _link(paths, staging)
     else:
         _mount_for(user, paths, staging)

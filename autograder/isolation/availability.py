@@ -1,4 +1,4 @@
-"""Finds out whether this machine can isolate an arena, by doing it once."""
+"""Tests whether this machine can isolate an arena, by starting one."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _NAMESPACE_SWITCH = Path("/proc/sys/kernel/unprivileged_userns_clone")
 
 @dataclass(frozen=True)
 class Isolation:
-    """How arenas on this machine are kept apart, and why so."""
+    """How arenas on this machine are isolated, and why."""
 
     kind: Kind
     reason: str
@@ -38,10 +38,10 @@ class Isolation:
 
 
 def available_isolation() -> Isolation:
-    """Return namespaces or nothing, as the machine has them, found out once a process.
+    """Return namespaces if they work on this machine, else no isolation; the test runs once in a process.
 
-    COURSE_ISOLATION=none asks for none; COURSE_ISOLATION=another-user for what root of a container can do without
-    namespaces, which is not enough for hidden checks. Raises ValueError for any other value of that variable.
+    COURSE_ISOLATION=none switches isolation off. COURSE_ISOLATION=another-user selects what root of a container can do
+    without namespaces, which is not enough for hidden checks. Raises ValueError for any other value of that variable.
     """
     wish = os.environ.get(ISOLATION_VARIABLE, "")
     if wish == Kind.NONE:
@@ -55,7 +55,7 @@ def available_isolation() -> Isolation:
 
 
 def with_another_user() -> Isolation:
-    """Return what root can do without namespaces: run students' programs as users who own nothing."""
+    """Return the isolation that root has without namespaces: students' programs run as users who own nothing."""
     if os.geteuid() != 0:
         return _without("only root can run a student's program as another user")
     try:
@@ -67,7 +67,7 @@ def with_another_user() -> Isolation:
 
 @lru_cache(maxsize=1)
 def try_namespaces() -> Isolation:
-    """Run a sandbox in a sandbox, as every student's process will be."""
+    """Test a sandbox inside a sandbox, in which every student's program runs."""
     try:
         nested = (
             f"exec {bwrap_path()} --unshare-user --unshare-pid --unshare-ipc --unshare-uts --cap-drop ALL"
@@ -87,12 +87,14 @@ def try_namespaces() -> Isolation:
 
 
 def _without(reason: str) -> Isolation:
-    warning = ". Students' programs run as root: better be an ordinary user" if os.geteuid() == 0 else ""
+    warning = (
+        ". Students' programs run as root: grade as an ordinary user instead" if os.geteuid() == 0 else ""
+    )
     return Isolation(Kind.NONE, reason + warning)
 
 
 def _advice() -> str:
-    """Return what an administrator can do, where the cause can be read off the system."""
+    """Return what an administrator can do, if a setting of the system shows the cause."""
     if _says(_APPARMOR_SWITCH, "1"):
         return ". AppArmor forbids it: sudo sysctl kernel.apparmor_restrict_unprivileged_userns=0 allows it"
     if _says(_NAMESPACE_SWITCH, "0"):

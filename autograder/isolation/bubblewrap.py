@@ -79,7 +79,7 @@ class Sandbox:
         self.add(option, str(self._hold(content)), *after)
 
     def add_isolation(self) -> None:
-        """Own namespaces for users, processes, IPC and names, no capabilities, and death with its parent."""
+        """Give it namespaces for users, processes, IPC and names, and no capabilities; it ends with its parent."""
         self.add("--unshare-user", "--uid", str(_UID), "--gid", str(_UID))
         self.add(
             "--unshare-pid", "--unshare-ipc", "--unshare-uts", "--hostname", "arena", "--unshare-cgroup-try"
@@ -89,7 +89,7 @@ class Sandbox:
     def add_file_system(
         self, tmp_mib: int, shared_memory_mib: int, read_only: Iterable[tuple[str, str]]
     ) -> None:
-        """The system's programs, limited /tmp and /dev/shm, and paths to read from (source, path inside)."""
+        """Show the system's programs, a limited /tmp and /dev/shm, and read-only paths (source, path inside)."""
         self.add("--proc", "/proc", "--dev", "/dev")
         self.add("--perms", "1777", "--size", str(shared_memory_mib * 2**20), "--tmpfs", "/dev/shm")
         self.add("--perms", "1777", "--size", str(tmp_mib * 2**20), "--tmpfs", "/tmp")
@@ -173,7 +173,7 @@ class Sandbox:
 
 
 def bwrap_path() -> str:
-    """Return bubblewrap's program, where a system has it, not on a PATH that anyone may have changed."""
+    """Return the path of bubblewrap in a system folder; PATH is not used, because anyone can change it."""
     for folder in _PROGRAM_FOLDERS:
         if os.access(path := f"{folder}/bwrap", os.X_OK):
             return path
@@ -181,7 +181,7 @@ def bwrap_path() -> str:
 
 
 def same_paths(paths: Iterable[str | Path]) -> list[tuple[str, str]]:
-    """Return each path as visible at the same place inside; a missing one raises `SandboxError`."""
+    """Return for each path the pair (source, path inside), which are the same; a missing one raises `SandboxError`."""
     pairs = []
     for path in dict.fromkeys(os.path.abspath(path) for path in paths):
         if not os.path.exists(path):
@@ -191,7 +191,7 @@ def same_paths(paths: Iterable[str | Path]) -> list[tuple[str, str]]:
 
 
 def _when_ready(process: subprocess.Popen[bytes], info: int) -> StartedSandbox:
-    """Return once the sandbox's init is sure to end with us. Raises OSError when that fails."""
+    """Return when it is certain that the sandbox's init ends with this process. Raises OSError when that fails."""
     deadline = time.monotonic() + _START_TIMEOUT
     init_pid = _read_init_pid(info)
     init_pidfd = os.pidfd_open(init_pid)

@@ -1,4 +1,4 @@
-"""Takes in what untrusted processes print: line by line, with times, and never more than a limit."""
+"""Captures the output of untrusted processes line by line, with times, up to a limit."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 _READ_BYTES = 65536
 _LONGEST_LINE = 4096  # characters; a longer one is continued on the next line
-_SHORTEST_COST = 32  # bytes that even an empty line is charged, as keeping it costs memory
+_SHORTEST_COST = 32  # bytes that each line counts at least, because even an empty one uses memory
 
 
 class OutputLine(NamedTuple):
@@ -21,7 +21,7 @@ class OutputLine(NamedTuple):
 
 
 class CapturedOutput:
-    """The lines of one stream. What comes after the limit is counted and dropped; a last line says so."""
+    """The lines of one stream. Output beyond the limit is counted and dropped; a last line says so."""
 
     def __init__(self, limit_kib: int, on_line: Callable[[OutputLine], object] | None = None) -> None:
         self._limit = limit_kib * 1024
@@ -43,7 +43,7 @@ class CapturedOutput:
         return "".join(f"{line.text}\n" for line in self._lines)
 
     def feed(self, data: bytes) -> None:
-        """Take in bytes that have just been read."""
+        """Add bytes that have just been read."""
         now = time.monotonic()
         if self._cost >= self._limit:
             self.dropped_bytes += len(data)
@@ -56,7 +56,7 @@ class CapturedOutput:
             self._keep(now, line)
 
     def close(self) -> None:
-        """The stream has ended: keep what stood without an end of line, and note what was dropped."""
+        """Note the end of the stream: keep an unfinished last line, and add a line on what was dropped."""
         if self._unfinished:
             self._keep(time.monotonic(), self._unfinished)
             self._unfinished = b""

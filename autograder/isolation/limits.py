@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class ArenaLimits:
-    """What the controller grants to everything inside one arena together."""
+    """Limits of all processes in one arena together, enforced by the controller."""
 
     deadline_s: float = 120.0
     # resident memory of all processes, sampled; more is tolerated for the grace time only
@@ -25,7 +25,7 @@ class ArenaLimits:
 
 @dataclass(frozen=True)
 class StudentLimits:
-    """What the arena grants to the student's process and everything it starts.
+    """Limits of the student's process and all processes that it starts, enforced by the arena.
 
     A node of rclpy has 12-16 threads and 590-850 MiB of address space, of which 65 MiB are resident.
     """

@@ -40,15 +40,15 @@ def main() -> None:
     instructions = os.pread(plan["filter"], _MOST_FILTER_BYTES, 0)
     os.close(plan["filter"])
     try:
-        _step_down(plan["folder"], plan["processes"], instructions)
+        _drop_privileges(plan["folder"], plan["processes"], instructions)
     except OSError as error:
-        sys.exit(f"root could not step down: {error}")
+        sys.exit(f"root could not drop its privileges: {error}")
     if not die_with_parent(plan["parent"]):
-        sys.exit("the process that asked for this program has gone")
+        sys.exit("the process that started this program has ended")
     os.execv(sys.argv[2], sys.argv[2:])
 
 
-def _step_down(folder: str, processes: int, instructions: bytes) -> None:
+def _drop_privileges(folder: str, processes: int, instructions: bytes) -> None:
     user = unused_id()
     os.chmod(folder, 0o700)
     for place, folders, names in os.walk(folder):

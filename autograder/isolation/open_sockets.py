@@ -21,7 +21,7 @@ def too_many_sockets(processes: Iterable[int], limits: StudentLimits, private_ne
     """
     if private_network:
         held, tcp = _of_the_network()
-        had = "with it there were"
+        had = "the arena had"
     else:
         own = _of_processes(processes)
         # the TCP table lists all connections of the machine, so it is read only if needed

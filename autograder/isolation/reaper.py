@@ -23,17 +23,17 @@ from ros_runtime.workarounds.die_with_parent import die_with_parent
 _PR_SET_CHILD_SUBREAPER = 36
 
 
-class _ToldToStopError(Exception):
+class _StopRequestedError(Exception):
     pass
 
 
 def main() -> None:
-    """Adopt orphans, run the command, sweep."""
+    """Adopt orphans, run the command, and end what it leaves behind."""
     ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
     signal.signal(signal.SIGTERM, _stop)
     parent_lives = die_with_parent(int(sys.argv[1]), signal.SIGTERM)
     status = 128 + signal.SIGKILL
-    with suppress(_ToldToStopError):
+    with suppress(_StopRequestedError):
         os.write(int(sys.argv[2]), b"x")
         os.close(int(sys.argv[2]))
         if parent_lives:
@@ -77,7 +77,7 @@ def _sweep() -> None:
 
 def _stop(number: int, frame: object) -> None:
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
-    raise _ToldToStopError
+    raise _StopRequestedError
 
 
 if __name__ == "__main__":

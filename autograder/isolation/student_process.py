@@ -5,8 +5,8 @@
     student.wait(5.0)
 
 The program shares the arena's private network and nothing else: it has its own users, processes, IPC, mounts
-and environment. All durations are on this process's clock. Works alike, without the sandbox, in an arena that
-has no namespaces.
+and environment. All durations are on this process's clock. In an arena without namespaces it works in the same way,
+but without the sandbox.
 """
 
 from __future__ import annotations

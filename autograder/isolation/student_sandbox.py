@@ -20,7 +20,9 @@ from autograder.isolation.limits import StudentLimits
 from autograder.isolation.running_program import RunningProgram
 from autograder.isolation.seccomp_filter import build_filter, student_filter
 
-NICER = 5  # nice value above the parent's: robot and grader get about three times the processor time
+NICE_INCREMENT = (
+    5  # added to the parent's nice value: robot and grader get about three times the processor time
+)
 OOM_SCORE = 500  # oom_score_adj, at most 1000: out of memory, the kernel ends students' programs first
 _WORKDIR = "/tmp/work"  # the program's working directory in its sandbox
 _NETWORK_VARIABLES = ("ROS_DOMAIN_ID", "FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_BUILTIN_TRANSPORTS")
@@ -64,10 +66,10 @@ def start_program(program: Program, stack: ExitStack) -> RunningProgram:
     return _start_in_sandbox(program, stack)
 
 
-def stand_back(pid: int) -> None:
+def lower_priority(pid: int) -> None:
     """Lower the priority of a process and its future children, for processors and for memory."""
     os.sched_setscheduler(pid, os.SCHED_BATCH, os.sched_param(0))  # does not preempt others when it wakes up
-    os.setpriority(os.PRIO_PROCESS, pid, min(19, os.getpriority(os.PRIO_PROCESS, pid) + NICER))
+    os.setpriority(os.PRIO_PROCESS, pid, min(19, os.getpriority(os.PRIO_PROCESS, pid) + NICE_INCREMENT))
     with open(f"/proc/{pid}/oom_score_adj", "r+") as score:
         wanted = max(int(score.read()), OOM_SCORE)
         score.seek(0)
@@ -95,7 +97,7 @@ def _start_in_sandbox(program: Program, stack: ExitStack) -> RunningProgram:
         nproc = f"--nproc={program.limits.processes}"
         limited = [*_limited(program.limits), nproc, "--", sys.executable, *program.arguments]
         # the command is no group leader, so setsid need not fork
-        started = sandbox.start(["/usr/bin/setsid", "--", *limited], prepare=stand_back)
+        started = sandbox.start(["/usr/bin/setsid", "--", *limited], prepare=lower_priority)
     stack.callback(os.close, started.init_pidfd)
     return RunningProgram(started.process, started.command_pid, started.init_pid)
 
@@ -124,9 +126,9 @@ def _start_bare(program: Program, stack: ExitStack, as_lone_user: bool) -> Runni
         file = folder / name
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_bytes(content)
-    stepping_down, filter_fds = _as_lone_user(program, folder, stack) if as_lone_user else ([], [])
+    as_user, filter_fds = _as_lone_user(program, folder, stack) if as_lone_user else ([], [])
     process = subprocess.Popen(
-        [*stepping_down, *_limited(program.limits), "--", sys.executable, *program.arguments],
+        [*as_user, *_limited(program.limits), "--", sys.executable, *program.arguments],
         pass_fds=filter_fds,
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
@@ -137,12 +139,12 @@ def _start_bare(program: Program, stack: ExitStack, as_lone_user: bool) -> Runni
         start_new_session=True,
     )
     with suppress(ProcessLookupError):  # it has ended already
-        stand_back(process.pid)
+        lower_priority(process.pid)
     return RunningProgram(process, process.pid)
 
 
 def _as_lone_user(program: Program, folder: Path, stack: ExitStack) -> tuple[list[str], list[int]]:
-    """Return the command that steps down from root and then becomes the next one, and the descriptor it reads."""
+    """Return a command that drops root's privileges and executes the command after it, and the descriptor it reads."""
     descriptor = os.memfd_create("filter")
     stack.callback(os.close, descriptor)
     os.write(descriptor, build_filter() if program.builds else student_filter())
@@ -157,7 +159,7 @@ def _as_lone_user(program: Program, folder: Path, stack: ExitStack) -> tuple[lis
 
 
 def _limited(limits: StudentLimits) -> list[str]:
-    """Return the command that sets the limits of a process and then becomes the program."""
+    """Return a command that sets the limits of a process and executes the command after it."""
     of_each_process = {
         "nofile": limits.open_files,
         "fsize": limits.file_mib * 2**20,
@@ -169,6 +171,6 @@ def _limited(limits: StudentLimits) -> list[str]:
 
 
 def _within_hard(name: str, value: int) -> int:
-    """Return the limit, or what the machine allows when that is less: nobody but root may raise it."""
+    """Return the limit, or the machine's hard limit if that is lower, which only root may raise."""
     _, hard = resource.getrlimit(getattr(resource, f"RLIMIT_{name.upper()}"))
     return value if hard == resource.RLIM_INFINITY else min(value, hard)

@@ -22,7 +22,7 @@ Feedback = ev.FeedbackReceived | ev.FeedbackSent
 
 def transcript_svg(transcript: Transcript, title: str) -> str:
     """Draw a transcript as SVG; consecutive feedback messages are one arrow, and a long transcript is cut."""
-    arrows = sorted([*_talk(transcript), *_robot(transcript)], key=lambda arrow: arrow.time)
+    arrows = sorted([*_messages(transcript), *_robot(transcript)], key=lambda arrow: arrow.time)
     if len(arrows) > MOST_ARROWS:
         left_out = len(arrows) - MOST_ARROWS
         last = arrows[MOST_ARROWS - 1].time
@@ -30,7 +30,7 @@ def transcript_svg(transcript: Transcript, title: str) -> str:
     return sequence_svg(arrows, title=title, participants=(CLIENT, SERVER, ROBOT))
 
 
-def _talk(transcript: Transcript) -> Iterator[Arrow]:
+def _messages(transcript: Transcript) -> Iterator[Arrow]:
     feedback: list[Feedback] = []
     for event in transcript.events:
         if isinstance(event, Feedback):
@@ -57,7 +57,7 @@ def _arrow(event: object) -> Arrow | None:
         case ev.NodeReady(t=t):
             return Arrow(t, SERVER, SERVER, "ready")
         case ev.NodeNotReady(t=t):
-            return Arrow(t, SERVER, SERVER, "never offered what is asked for")
+            return Arrow(t, SERVER, SERVER, "never offered the required endpoints")
         case ev.NodeExited(t=t, returncode=code):
             return Arrow(t, SERVER, SERVER, f"process ended with status {code}")
         case ev.NodeSignalled(t=t, signal=signal):

@@ -46,8 +46,8 @@ def print_verdict(console: Console, verdict: CheckVerdict) -> None:
 
 
 def print_retry(console: Console, check: Check) -> None:
-    """Print that a check failed once and is repeated."""
-    console.print(Text(f"… {check.title}: failed once, looking again", "dim"))
+    """Print that a check failed once and is retried."""
+    console.print(Text(f"… {check.title}: failed once, retrying", "dim"))
 
 
 def explanation(verdict: CheckVerdict) -> Table:
@@ -90,7 +90,7 @@ def grade_table(grade: Grade) -> RenderableType:
 def summary(grade: Grade) -> str:
     """Return the score in one line, or "not graded" or "to be marked"; without isolation it is labelled."""
     if grade.status == "not graded":
-        return f"NOT GRADED, no points either way: {grade.why_not_graded}"
+        return f"NOT GRADED, no score: {grade.why_not_graded}"
     if grade.status == "to mark":
         waiting = sum(verdict.status == "to mark" for verdict in grade.checks)
         return f"to be marked by hand: {waiting} of {len(grade.checks)} criteria"

@@ -11,22 +11,22 @@ from math import inf
 from typing import ClassVar, NamedTuple
 
 from autograder.authoring import Failure, ScriptedGoal, Transcript, ev, require_one_goal, steps_until, unseen
-from autograder.authoring.walking.client_life import (
+from autograder.authoring.walking.client_record import require_record
+from autograder.authoring.walking.client_run import (
     CANCELED,
-    FINDING,
-    LEAVES_SOON,
-    LEAVING,
+    DETECTION_TIME,
+    EXIT_SLACK,
+    EXIT_TIME,
+    MIN_WAIT_TIME,
     NO_SERVER,
     ORDER_MARGIN,
     SILENCE_LIMIT,
     STATUS_HELP,
-    SURELY_WAITED,
     Cause,
-    ClientLife,
+    ClientRun,
     End,
     by_status,
 )
-from autograder.authoring.walking.client_record import require_record
 from humanoid_interfaces.msg import RobotState
 
 NAVIGATE = "navigate_to_pose"
@@ -190,10 +190,10 @@ class GuardLife(ClientLife):
             ("no percentage", f"no valid percentage came on {BATTERY}", known, started, _WAIT_FOR_BATTERY),
             ("no server", f"there is no server of {NAVIGATE}", offered, known, _WAIT_FOR_SERVER),
         ):
-            earliest = started + SILENCE_LIMIT - FINDING
+            earliest = started + SILENCE_LIMIT - DETECTION_TIME
             if t > earliest:
                 since = since if since < inf else started
-                latest = since + SILENCE_LIMIT + LEAVES_SOON
+                latest = since + SILENCE_LIMIT + EXIT_SLACK
                 yield End(NO_SERVER, name, because, started + SILENCE_LIMIT, earliest, latest, help)
 
     def _low_before(self) -> Iterator[End]:
@@ -204,7 +204,7 @@ class GuardLife(ClientLife):
             found = min(max(self.when(ev.ActionOffered), since), since + 2 * SILENCE_LIMIT)
             help = IS_LATCHED if len(self._heard_on(BATTERY)) == 1 else STATUS_HELP
             because = f"the battery was at {low.level:.4g} before the goal was sent"
-            yield End(CANCELED, "low before", because, since, since, found + FINDING + LEAVING, help)
+            yield End(CANCELED, "low before", because, since, since, found + DETECTION_TIME + EXIT_TIME, help)
 
     def _after_the_acceptance(self) -> Iterator[tuple[End, bool]]:
         """Yield each possible end after an accepted goal, and whether it is certain."""
@@ -217,7 +217,7 @@ class GuardLife(ClientLife):
             by_keyboard = not self.for_the_battery
             over = called_off + SILENCE_LIMIT
             waits_until = max(over, min(self.stands_from(called_off), over + SILENCE_LIMIT))
-            earliest = called_off + (SURELY_WAITED if by_keyboard else SILENCE_LIMIT - ORDER_MARGIN)
+            earliest = called_off + (MIN_WAIT_TIME if by_keyboard else SILENCE_LIMIT - ORDER_MARGIN)
             is_refused = any(cancel.reply and not cancel.reply.canceling for cancel in self.goal.cancels)
             may_go_on = is_refused and not by_keyboard
             because = f"the goal had no result {SILENCE_LIMIT:g} s after the cancel request"
@@ -243,7 +243,7 @@ class GuardLife(ClientLife):
         earliest = end.earliest
         if is_called_off and self.for_the_battery:
             earliest = min(stands, t + SILENCE_LIMIT - ORDER_MARGIN)
-            latest = min(stands + LEAVES_SOON, latest)
+            latest = min(stands + EXIT_SLACK, latest)
         return replace(end, name=name, earliest=earliest, latest=latest)
 
     def left_early(self, end: End, exited: ev.NodeExited) -> Failure:

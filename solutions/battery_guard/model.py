@@ -10,7 +10,7 @@ from functools import partial
 from autograder.authoring import Failure, Obligation, ev, expect, how_to_give_up, obligation, shown, whole_run
 from autograder.authoring.walking import client_ends
 from autograder.authoring.walking import client_obligations as owed
-from autograder.authoring.walking.client_life import CANCELED, SUCCEEDED, Cause, End
+from autograder.authoring.walking.client_run import CANCELED, SUCCEEDED, Cause, End
 
 from .life import BATTERY, DELIVERY_TIME, LIMIT, GuardLife, about_level, guards, is_percentage
 
@@ -55,7 +55,7 @@ def sends_it_only_when_it_may(life: GuardLife) -> str:
 
 
 def _require_cancels(life: GuardLife) -> list[Cause]:
-    return owed.asks_to_cancel_in_time(life, _needless, _how_to_cancel)
+    return owed.require_cancels_in_time(life, _needless, _how_to_cancel)
 
 
 def _needless(life: GuardLife, t: float) -> Failure:
@@ -105,7 +105,7 @@ def asks_to_cancel(life: GuardLife) -> Iterator[tuple[int, str]]:
     """Require that it cancels once when it has to, and never otherwise; yield each cancel's clause and reason."""
     for cause in _require_cancels(life) if life.goal else []:
         early = cause.name == "battery" and cause.since == life.accepted
-        if cause.is_owed:
+        if cause.is_required:
             yield {"silence": 14, "Ctrl-C": 16}.get(cause.name, 6 if early else 5), cause.because
 
 

@@ -14,10 +14,10 @@ from autograder.authoring import (
     differing_fields,
     ev,
     known_messages,
-    lesson_on_hearing,
+    lesson_on_subscribing,
     obligation,
     shown_fields,
-    why_nothing_is_heard,
+    why_no_message_arrives,
 )
 
 SERVICE = "get_battery_status"
@@ -46,14 +46,14 @@ def repeats_the_last_message(call: Call) -> str | None:
         "available",
         True,
         because="the robot had published its battery",
-        help=why_nothing_is_heard(call.run, "battery_state")
+        help=why_no_message_arrives(call.run, "battery_state")
         or (
             f"The last message came {silence:.1f} s before the request: respond with it, however old it is."
             if silence > 1.0
             else "Your node receives battery_state: keep the last message, and in each request check whether there is "
             "one."
         ),
-        see=lesson_on_hearing(call.run, "battery_state"),
+        see=lesson_on_subscribing(call.run, "battery_state"),
     )
     last = known[-1].message
     differing = min((differing_fields(call.response.battery, each.message) for each in known), key=len)

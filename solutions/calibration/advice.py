@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from autograder.authoring import Call, Transcript, ev, shown_fields, why_nothing_is_heard
+from autograder.authoring import Call, Transcript, ev, shown_fields, why_no_message_arrives
 
 from . import truth
 from .message import TOLERANCE, is_near, whole_numbers

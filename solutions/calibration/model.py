@@ -14,7 +14,7 @@ from autograder.authoring import (
     Transcript,
     calls,
     expect,
-    lesson_on_hearing,
+    lesson_on_subscribing,
     obligation,
     require_fastest,
     shown,
@@ -84,7 +84,7 @@ def _require_success(call: Call, story: truth.Story) -> None:
         because=f"the robot is {name_of(RobotMode, run.robot_at(call.sent.t).mode)}, get_status responded, and "
         f"{published} imu messages came",
         help=advice_on_failing(call, story, published),
-        see="" if published else lesson_on_hearing(run, "imu"),
+        see="" if published else lesson_on_subscribing(run, "imu"),
     )
     took = call.answered.t - story.since
     call.require(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from autograder.authoring import obligation, whole_run
 from autograder.authoring.walking import client_obligations as owed
-from autograder.authoring.walking.client_life import clients
+from autograder.authoring.walking.client_run import clients
 
 sends_one_goal = obligation(1, of=clients, see="06_walk_to_a_pose#follow-task")(owed.sends_one_goal)
 prints_each_feedback_in_time = obligation(1, 9, of=clients, see="05_executors#one-why")(

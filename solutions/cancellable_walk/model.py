@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from autograder.authoring import Goal, Obligation, Transcript, goals, obligation, whole_run
 from autograder.authoring.walking import objections
 from autograder.authoring.walking.objections import accepting, rejects
-from autograder.authoring.walking.obligations import cancels, ends, tells, walks
+from autograder.authoring.walking.obligations import cancels, ends, reporting, walks
 
 accepts = obligation(1, 3, 11, of=goals, see="07_cancel_and_preempt#m2-why")(
     accepting(
@@ -28,16 +28,20 @@ stands_at_success = obligation(5, of=goals)(walks.stands_at_success)
 stands_without_a_goal = obligation(5, 9, of=whole_run)(walks.stands_without_a_goal)
 turns_the_short_way = obligation(6, of=goals)(walks.turns_the_short_way)
 goes_on = obligation(1, of=goals)(ends.goes_on)
-feedback_at_5_hz = obligation(7, of=goals, see="07_cancel_and_preempt#conventions")(tells.feedback_at_5_hz)
-feedback_is_true = obligation(7, of=goals, see="07_cancel_and_preempt#turner-intro")(tells.feedback_is_true)
-estimates_the_time = obligation(7, of=goals)(tells.estimates_the_time)
+feedback_at_5_hz = obligation(7, of=goals, see="07_cancel_and_preempt#conventions")(
+    reporting.feedback_at_5_hz
+)
+feedback_is_true = obligation(7, of=goals, see="07_cancel_and_preempt#turner-intro")(
+    reporting.feedback_is_true
+)
+estimates_the_time = obligation(7, of=goals)(reporting.estimates_the_time)
 feedback_ends_with_the_goal = obligation(7, of=goals, see="07_cancel_and_preempt#m13-why")(
-    tells.feedback_ends_with_the_goal
+    reporting.feedback_ends_with_the_goal
 )
 reports_where_it_ended = obligation(8, of=goals, see="07_cancel_and_preempt#m13-why")(
-    tells.reports_where_it_ended
+    reporting.reports_where_it_ended
 )
-says_why_it_aborted = obligation(8, of=goals)(tells.says_why_it_aborted)
+says_why_it_aborted = obligation(8, of=goals)(reporting.says_why_it_aborted)
 grants_cancels = obligation(9, of=goals, see="07_cancel_and_preempt#why")(cancels.grants_cancels)
 stops_when_canceled = obligation(9, of=goals, see="07_cancel_and_preempt#m12-robot-why")(
     cancels.stops_when_canceled

@@ -200,7 +200,7 @@ def moves_the_real_hand(run: Transcript) -> str | None:
         if not answered:
             raise unseen(run, "the arm was moved before a response with angles")
         reply = Reply(answered[-1], DEFAULT)
-        if run.told("move_joints", before=arm.t).t < reply.at:
+        if run.last_command("move_joints", before=arm.t).t < reply.at:
             raise held_up(run, f"the arm was not moved to the angles for {reply.question}")
         x, y = reply.target
         away = math.dist(arm.hand, (x, 0.0, y))

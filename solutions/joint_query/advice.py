@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Sequence
 
-from autograder.authoring import DELIVERY, JOINTS, Call, ev, known_messages, same, why_nothing_is_heard
+from autograder.authoring import DELIVERY, JOINTS, Call, ev, known_messages, same, why_no_message_arrives
 from autograder.authoring.evidence.fields import ROUNDING
 
 from .truth import SILENCE, Positions, is_at, positions_by_name, robot_joints

@@ -14,7 +14,7 @@ from autograder.authoring import (
     calls,
     ev,
     known_messages,
-    lesson_on_hearing,
+    lesson_on_subscribing,
     obligation,
     shown_fields,
     whole_run,
@@ -74,7 +74,7 @@ def _require_heard(call: Call) -> None:
         expected="a response from the robot's joint_states",
         observed=f"{described(joints.name, joints.position)}, although your node had received no joint_states",
         help=advice.not_heard(call),
-        see=lesson_on_hearing(call.run, "joint_states"),
+        see=lesson_on_subscribing(call.run, "joint_states"),
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from autograder.authoring import DELIVERY, Call, ev, shown, why_nothing_is_commanded, why_nothing_is_heard
+from autograder.authoring import DELIVERY, Call, ev, shown, why_no_command_arrives, why_no_message_arrives
 
 MIN_WAIT = 0.7  # s; a response that took longer waited for the robot
 MIN_CONFIRMATION_WAIT = 1.8  # s before a response may report a missing confirmation; the task says 2 s

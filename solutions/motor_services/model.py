@@ -13,7 +13,7 @@ from autograder.authoring import (
     answers_from_memory,
     calls,
     ev,
-    lesson_on_hearing,
+    lesson_on_subscribing,
     obligation,
     one_or_several,
     require_fastest,
@@ -24,7 +24,7 @@ from autograder.authoring import (
 from autograder.authoring.requirements.standard_obligations import (
     FROM_MEMORY,
     FROM_MEMORY_TIME,
-    TOGETHER,
+    TOGETHER_TIME,
     enough_answers,
 )
 from ros_runtime.message_constants import RobotMode, name_of
@@ -260,7 +260,7 @@ def tells_the_motors(call: Call) -> str | None:
         f"{on_or_off(states[-1].motors_enabled)} and the robot is {_situation(call)}",
         observed=shown_fields(call.response, "success", "message"),
         help=advice.on_status(call, wanted),
-        see=lesson_on_hearing(call.run, "robot_state"),
+        see=lesson_on_subscribing(call.run, "robot_state"),
     )
     return _situation(call) if len(possible) == 1 else "while they are switched"
 
@@ -289,7 +289,7 @@ def _knowledge(call: Call) -> str:
     if not last_states(call):
         return "before the first robot_state"
     power = [asked.t for asked in call.run.all(ev.ServiceCalled) if asked.service == ENABLE]
-    together = any(0 <= call.sent.t - t < TOGETHER for t in power)
+    together = any(0 <= call.sent.t - t < TOGETHER_TIME for t in power)
     return "together with enable_motors" if together else "alone"
 
 

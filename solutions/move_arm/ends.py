@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from autograder.authoring import ABORTED, SUCCEEDED, Goal, error_name, expect
-from autograder.authoring.walking.life import cancels_on_the_way, granted, left_alone, phase, successors
+from autograder.authoring.walking.life import cancels_on_the_way, granted, phase, successors, was_not_awaited
 from autograder.authoring.walking.obligations.ends import require_preempted
 from autograder.authoring.walking.reports import require_error_code
 
@@ -136,7 +136,7 @@ def strays(goal: Goal) -> str | None:
 def notices_silence(goal: Goal) -> str | None:
     """When no joint_states come for 1 s, the goal ends with INVALID_JOINTS."""
     lost = life.silent_since(goal) if life.is_carried_out(goal) else None
-    if lost is None or lost < goal.accepted_at or granted(goal) or successors(goal) or left_alone(goal):
+    if lost is None or lost < goal.accepted_at or granted(goal) or successors(goal) or was_not_awaited(goal):
         return None
     require_moving(goal, lost)
     result = goal.require_result(ABORTED, help=_SILENT)

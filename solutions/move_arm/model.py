@@ -7,7 +7,7 @@ from collections.abc import Callable
 from autograder.authoring import CANCELED, Goal, Obligation, ev, goals, obligation, whole_run
 from autograder.authoring.walking.life import phase, rivals
 from autograder.authoring.walking.objections import rejects
-from autograder.authoring.walking.obligations import cancels, tells
+from autograder.authoring.walking.obligations import cancels, reporting
 from autograder.authoring.walking.obligations.ends import status_in_order
 
 from . import ends, motion, objections, reports
@@ -44,7 +44,7 @@ feedback_at_10_hz = obligation(13, of=goals, see="07_cancel_and_preempt#conventi
 )
 feedback_is_true = obligation(13, of=goals, see="09_arms#bend-why")(reports.feedback_is_true)
 no_late_feedback = obligation(13, of=goals, see="07_cancel_and_preempt#m13-why")(
-    tells.feedback_ends_with_the_goal
+    reporting.feedback_ends_with_the_goal
 )
 grants_cancels = obligation(14, of=goals, see="07_cancel_and_preempt#m1-why")(ends.grants_cancels)
 answers_cancels = obligation(14, of=goals)(cancels.answers_every_cancel)

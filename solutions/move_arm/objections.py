@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from autograder.authoring import Goal
 from autograder.authoring.walking.objections import objection
-from autograder.authoring.walking.obligations.tells import seconds
+from autograder.authoring.walking.obligations.reporting import seconds
 
 ARMS = ("l", "r")
 ROUNDING = 0.001  # rad; a position this near to the end of a range may be accepted or rejected

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from trajectory_msgs.msg import JointTrajectory
 
-from autograder.authoring.walking.obligations.tells import seconds
+from autograder.authoring.walking.obligations.reporting import seconds
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from autograder.authoring import (
     expect,
     require_good_feedback_rate,
 )
-from autograder.authoring.walking.life import ended_at, interrupted, left_alone
+from autograder.authoring.walking.life import ended_at, interrupted, was_not_awaited
 from autograder.authoring.walking.reports import require_error_code
 
 from .endings import GOAL_TOLERANCE

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from autograder.authoring import Goal, RobotRecord, ev, why_nothing_is_heard
+from autograder.authoring import Goal, RobotRecord, ev, why_no_message_arrives
 
 from .plan import Plan, errors, largest
 

@@ -29,9 +29,9 @@ class Leg:
 def legs(run: Transcript) -> Iterator[Leg]:
     """Occasions: the long undisturbed ways; their goals must have succeeded."""
     for goal in goals(run):
-        if not life.is_undisturbed(goal) or life.left_alone(goal) or operated(goal):
+        if not life.is_undisturbed(goal) or life.was_not_awaited(goal) or operated(goal):
             continue
-        if life.way_to(goal) < MIN_LEG:
+        if life.initial_distance(goal) < MIN_LEG:
             continue
         yield _leg_to(goal)
 
@@ -61,7 +61,10 @@ def led_astray(goal: Goal) -> tuple[float, float] | None:
     if not life.accepted(goal) or life.interrupted(goal) or not operated(goal, "lead_astray"):
         return None
     run = goal.run
-    taken, given = run.told("take_over", velocity=[-0.2, 0.0, 0.0]), run.told("take_over", velocity=None)
+    taken, given = (
+        run.last_command("take_over", velocity=[-0.2, 0.0, 0.0]),
+        run.last_command("take_over", velocity=None),
+    )
     off = off_the_way(run.robot_at(given.t), goal)
     if off < DETOUR_ANGLE:
         raise not_shown(

@@ -9,7 +9,7 @@ from collections import Counter
 from autograder.authoring import ABORTED, SUCCEEDED, Goal, ev, expect, goals, not_shown, obligation, whole_run
 from autograder.authoring.walking import life, objections
 from autograder.authoring.walking.objections import accepting, objection, rejects
-from autograder.authoring.walking.obligations import cancels, ends, tells, walks
+from autograder.authoring.walking.obligations import cancels, ends, reporting, walks
 from autograder.authoring.walking.path import STRIDE, length_walked, walking_speed
 from autograder.authoring.walking.planar import error
 from autograder.authoring.walking.reports import require_error_code
@@ -85,8 +85,8 @@ stops_when_canceled = obligation(17, of=goals)(cancels.stops_when_canceled)
 stands_without_a_goal = obligation(4, 16, 17, of=whole_run)(walks.stands_without_a_goal)
 gives_way = obligation(18, of=goals)(ends.gives_way)
 tells_a_fall = obligation(19, of=goals, see="07_cancel_and_preempt#fall-why")(ends.tells_a_fall)
-names_no_error = obligation(20, of=goals)(tells.names_no_error)
-says_why_it_aborted = obligation(20, of=goals)(tells.says_why_it_aborted)
+names_no_error = obligation(20, of=goals)(reporting.names_no_error)
+says_why_it_aborted = obligation(20, of=goals)(reporting.says_why_it_aborted)
 
 
 @obligation(5, of=goals, see="08_navigation#zero-why")
@@ -94,7 +94,7 @@ def succeeds_where_it_stands(goal: Goal) -> str | None:
     """A goal equal to the present pose SUCCEEDS within 4 s, and the robot does not walk"""
     distance, turn = error(goal.run.robot_at(goal.sent.t), goal)
     is_there = distance <= HERE and turn <= HERE and life.began_at_rest(goal)
-    if not is_there or not life.is_undisturbed(goal) or life.left_alone(goal):
+    if not is_there or not life.is_undisturbed(goal) or life.was_not_awaited(goal):
         return None
     require_arrival(goal)
     end = goal.require_result(SUCCEEDED)
@@ -168,11 +168,11 @@ def _timed_out(goal: Goal) -> bool:
 
 # -- the way, and the feedback during it ------------------------------------------------------------------------------
 
-feedback_at_5_hz = obligation(6, of=goals, see="06_walk_to_a_pose#settle-intro")(tells.feedback_at_5_hz)
+feedback_at_5_hz = obligation(6, of=goals, see="06_walk_to_a_pose#settle-intro")(reporting.feedback_at_5_hz)
 feedback_ends_with_the_goal = obligation(6, of=goals, see="07_cancel_and_preempt#m13-why")(
-    tells.feedback_ends_with_the_goal
+    reporting.feedback_ends_with_the_goal
 )
-feedback_is_true = obligation(7, of=goals, see="08_navigation#action-intro")(tells.feedback_is_true)
+feedback_is_true = obligation(7, of=goals, see="08_navigation#action-intro")(reporting.feedback_is_true)
 
 
 @obligation(3, of=legs, see="08_navigation#why")
@@ -258,7 +258,7 @@ def tells_its_time(goal: Goal) -> str | None:
     if not reports or reports[-1].t - start < 2 * TIME_SLACK:
         return None
     for feedback in reports:
-        claimed, true = tells.seconds(feedback.feedback.navigation_time), feedback.t - start
+        claimed, true = reporting.seconds(feedback.feedback.navigation_time), feedback.t - start
         expect(
             abs(claimed - true) <= TIME_SLACK,
             expected=f"navigation_time about {true:.1f} s, the time since this goal was accepted",
@@ -276,7 +276,7 @@ def tells_its_time(goal: Goal) -> str | None:
 def estimates_the_time(leg: Leg) -> str:
     """estimated_time_remaining is positive under way, and half way it is right within a factor of 2"""
     for feedback in under_way(leg.goal):
-        estimate = tells.seconds(feedback.feedback.estimated_time_remaining)
+        estimate = reporting.seconds(feedback.feedback.estimated_time_remaining)
         expect(
             estimate > 0,
             expected="estimated_time_remaining above 0 while the robot is under way",
@@ -359,7 +359,7 @@ def half_done_half_way(leg: Leg) -> str:
 def measures_its_path(goal: Goal) -> str | None:
     """distance_traveled is the path of the pelvis during this goal, without sway, however the goal ends"""
     end = goal.result
-    if not life.accepted(goal) or end is None or life.interrupted(goal) or life.went_down(goal):
+    if not life.accepted(goal) or end is None or life.interrupted(goal) or life.fell_or_lost_power(goal):
         return None
     detour = led_astray(goal) is not None
     ends_standing = not detour and (goal.status == SUCCEEDED or operated(goal))

@@ -6,7 +6,7 @@ import math
 
 from autograder.arena.sequence import Steps
 from autograder.arena.stage import Stage
-from autograder.arena.walking_steps import COMING_NEAR, walk_in_order
+from autograder.arena.walking_steps import APPROACH_TIMEOUT, walk_in_order
 from humanoid_interfaces.action import NavigateToPose
 
 BACKWARD, TURN = -0.2, 0.45  # m/s and rad/s commanded by the operator

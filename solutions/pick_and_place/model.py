@@ -5,7 +5,7 @@ from __future__ import annotations
 from autograder.authoring import CANCELED, SUCCEEDED, Goal, Obligation, goals, obligation
 from autograder.authoring.walking.life import accepted, others, phase
 from autograder.authoring.walking.objections import rejects
-from autograder.authoring.walking.obligations import tells
+from autograder.authoring.walking.obligations import reporting
 from autograder.authoring.walking.obligations.cancels import answers_every_cancel
 from autograder.authoring.walking.obligations.ends import status_in_order
 
@@ -39,7 +39,7 @@ names_stages = obligation(6, of=goals, see="09_arms#lift-intro")(reports.names_s
 true_stages = obligation(6, of=goals, see="09_arms#conventions")(reports.stages_are_true_at)
 feedback_at_5_hz = obligation(7, of=goals, see="07_cancel_and_preempt#conventions")(reports.feedback_at_5_hz)
 no_late_feedback = obligation(7, of=goals, see="07_cancel_and_preempt#m13-why")(
-    tells.feedback_ends_with_the_goal
+    reporting.feedback_ends_with_the_goal
 )
 measured = obligation(8, of=goals, see="09_arms#force-why")(reports.values_are_measured)
 percentage = obligation(9, of=goals, see="08_navigation#zero-fix-why")(reports.percentage_never_falls)
@@ -51,7 +51,7 @@ withdraws_empty = obligation(13, of=goals, see="09_arms#force-why")(safe_ends.wi
 gives_up_in_time = obligation(14, of=goals, see="09_arms#hand-intro")(safe_ends.gives_up_in_time)
 lost_object = obligation(15, of=goals, see="09_arms#slip-why")(safe_ends.notices_what_it_loses)
 tells_a_fall = obligation(16, of=goals, see="07_cancel_and_preempt#fall-why")(safe_ends.tells_a_fall)
-says_why_it_aborted = obligation(17, of=goals)(tells.says_why_it_aborted)
+says_why_it_aborted = obligation(17, of=goals)(reporting.says_why_it_aborted)
 leaves_the_cup = obligation(18, of=goals, see="07_cancel_and_preempt#m1-why")(safe_ends.leaves_the_cup)
 puts_away = obligation(19, of=goals, see="09_arms#lift-why")(safe_ends.puts_away)
 answers_cancels = obligation(18, 19, of=goals)(answers_every_cancel)

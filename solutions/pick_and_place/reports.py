@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from autograder.authoring import SUCCEEDED, Goal, end_of_feedback, ev, expect, require_good_feedback_rate
 from autograder.authoring.evidence.robot_record import between
-from autograder.authoring.walking.life import accepted, ended_at, interrupted, left_alone
+from autograder.authoring.walking.life import accepted, ended_at, interrupted, was_not_awaited
 from humanoid_interfaces.action import PickAndPlace
 from ros_runtime.message_constants import GoalStatus, name_of
 

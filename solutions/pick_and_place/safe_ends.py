@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 
-from autograder.authoring import ABORTED, Goal, ev, expect, require_fell_told, require_knocked_over
-from autograder.authoring.walking.life import accepted, left_alone, successors
+from autograder.authoring import ABORTED, Goal, ev, expect, require_fall_reported, require_knocked_over
+from autograder.authoring.walking.life import accepted, successors, was_not_awaited
 from autograder.authoring.walking.reports import require_error_code
 
 from . import life
@@ -176,7 +176,7 @@ def tells_a_fall(goal: Goal) -> str | None:
     """When the robot falls, the goal is ABORTED with FELL."""
     if not life.ends_by_itself(goal) or life.commanded(goal, "push") is None:
         return None
-    require_fell_told(goal, require_knocked_over(goal.run))
+    require_fall_reported(goal, require_knocked_over(goal.run))
     return "pushed"
 
 

@@ -15,14 +15,14 @@ from autograder.authoring import (
     expect,
     goals,
     obligation,
-    require_fell_told,
+    require_fall_reported,
     require_good_feedback_rate,
     whole_run,
-    why_nothing_is_heard,
+    why_no_message_arrives,
     why_rclpy_aborted,
 )
 from autograder.authoring.walking import life, objections
-from autograder.authoring.walking.obligations import ends, tells
+from autograder.authoring.walking.obligations import ends, reporting
 from autograder.authoring.walking.reports import require_error_code
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.message_constants import GoalStatus, name_of
@@ -116,7 +116,7 @@ takes_one_of_several = obligation(13, of=goals)(objections.one_of_several)
 def succeeds(goal: Goal) -> str | None:
     """The goal SUCCEEDS, with base_link at 0.59 m or higher"""
     accepts.require(goal)
-    if goal.status != SUCCEEDED and (not truth.could_rise(goal) or life.left_alone(goal)):
+    if goal.status != SUCCEEDED and (not truth.could_rise(goal) or life.was_not_awaited(goal)):
         return None
     run, result = life.run_of(goal), goal.result
     if result is None or result.status != SUCCEEDED:
@@ -179,7 +179,7 @@ def ends_with_a_fall(goal: Goal) -> str | None:
     fallen = truth.fallen_during(goal)
     if fallen is None:
         return None
-    require_fell_told(goal, fallen)
+    require_fall_reported(goal, fallen)
     return "a fall"
 
 
@@ -222,7 +222,7 @@ def keeps_the_limit(goal: Goal) -> str | None:
     if not truth.began_low(goal) or life.granted(goal) or truth.fallen_during(goal) or life.interrupted(goal):
         return None
     in_time = goal.status == SUCCEEDED and life.ended_at(goal) <= goal.accepted_at + TIME_LIMIT + LATE
-    if in_time or life.left_alone(goal):
+    if in_time or life.was_not_awaited(goal):
         return None
     result = goal.require_result(ABORTED, help=advice.TIME_IS_UP)
     took = result.t - goal.accepted_at
@@ -249,7 +249,7 @@ def names_no_error(goal: Goal) -> str | None:
     return name_of(GoalStatus, goal.result.status)
 
 
-says_why_it_aborted = obligation(17, of=goals)(tells.says_why_it_aborted)
+says_why_it_aborted = obligation(17, of=goals)(reporting.says_why_it_aborted)
 status_in_order = obligation(12, of=goals)(ends.status_in_order)
 
 
@@ -425,7 +425,7 @@ def feedback_at_5_hz(goal: Goal) -> str | None:
 
 
 feedback_ends = obligation(8, of=goals, see="07_cancel_and_preempt#m13-why")(
-    tells.feedback_ends_with_the_goal
+    reporting.feedback_ends_with_the_goal
 )
 
 

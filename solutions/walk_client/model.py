@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from autograder.authoring import obligation, whole_run
 from autograder.authoring.walking import client_obligations as owed
-from autograder.authoring.walking.client_life import clients
+from autograder.authoring.walking.client_run import clients
 
 sends_one_goal = obligation(1, 12, of=clients, see="06_walk_to_a_pose#client-intro")(owed.sends_one_goal)
 prints_each_feedback = obligation(2, of=clients, see="06_walk_to_a_pose#field-why")(owed.prints_each_feedback)

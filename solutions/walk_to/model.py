@@ -5,7 +5,7 @@ from __future__ import annotations
 from autograder.authoring import Goal, goals, obligation, whole_run
 from autograder.authoring.walking import objections
 from autograder.authoring.walking.objections import accepting, one_of_several, rejects
-from autograder.authoring.walking.obligations import cancels, ends, tells, walks
+from autograder.authoring.walking.obligations import cancels, ends, reporting, walks
 
 _accept = accepting(
     objections.frames,
@@ -50,13 +50,13 @@ status_in_order = obligation(9, of=goals)(ends.status_in_order)
 stands_at_success = obligation(9, of=goals, see="06_walk_to_a_pose#touch-why")(walks.stands_at_success)
 stands_without_a_goal = obligation(9, of=whole_run)(walks.stands_without_a_goal)
 reports_where_it_ended = obligation(10, of=goals, see="06_walk_to_a_pose#settle-why")(
-    tells.reports_where_it_ended
+    reporting.reports_where_it_ended
 )
-feedback_at_5_hz = obligation(11, of=goals, see="06_walk_to_a_pose#conventions")(tells.feedback_at_5_hz)
-feedback_is_true = obligation(11, of=goals, see="06_walk_to_a_pose#settle-intro")(tells.feedback_is_true)
-estimates_the_time = obligation(11, of=goals)(tells.estimates_the_time)
+feedback_at_5_hz = obligation(11, of=goals, see="06_walk_to_a_pose#conventions")(reporting.feedback_at_5_hz)
+feedback_is_true = obligation(11, of=goals, see="06_walk_to_a_pose#settle-intro")(reporting.feedback_is_true)
+estimates_the_time = obligation(11, of=goals)(reporting.estimates_the_time)
 feedback_ends_with_the_goal = obligation(11, of=goals, see="06_walk_to_a_pose#settle-intro")(
-    tells.feedback_ends_with_the_goal
+    reporting.feedback_ends_with_the_goal
 )
 tells_a_fall = obligation(12, of=goals, see="06_walk_to_a_pose#fall-why")(ends.tells_a_fall)
-says_why_it_aborted = obligation(12, of=goals)(tells.says_why_it_aborted)
+says_why_it_aborted = obligation(12, of=goals)(reporting.says_why_it_aborted)

@@ -1,1 +1,1 @@
-"""Why something did not happen, from the evidence: exits, threads that stood, missing connections."""
+"""Why something did not happen, from the evidence: exits, blocked threads, missing connections."""

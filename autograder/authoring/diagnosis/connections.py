@@ -1,4 +1,4 @@
-"""What a student's node is connected to, in a sentence: it explains a failure, and no verdict depends on it."""
+"""Explains failures by the topics that a student's node publishes and subscribes to; no verdict depends on them."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from autograder.authoring.evidence.record import Record
 OUTSIDE = "01_robot_and_graph#names-why"
 
 
-def _hears(run: Record, topic: str) -> bool | None:
-    """Return whether the robot was connected to a subscription of its `topic`; None if nothing is known."""
+def _is_subscribed(run: Record, topic: str) -> bool | None:
+    """Return whether a subscription matched the robot's `topic`; None if that was not recorded."""
     counts = [
         count
         for peers in run.all(ev.RobotPeers)
@@ -20,21 +20,21 @@ def _hears(run: Record, topic: str) -> bool | None:
     return any(counts) if counts else None
 
 
-def why_nothing_is_heard(run: Record, topic: str) -> str | None:
-    """Return why the node gets no message of the robot's `topic`, or None if it does or nothing is known."""
+def why_no_message_arrives(run: Record, topic: str) -> str | None:
+    """Return why the node receives no messages on the robot's `topic`; None if it does, or if the cause is unknown."""
     remedy = _missing_subscription(run, topic)
     return remedy.help if remedy else None
 
 
-def lesson_on_hearing(run: Record, topic: str) -> str:
-    """Return the lesson on why the node gets no message of the robot's `topic`, '' (the check's) if it does."""
+def lesson_on_subscribing(run: Record, topic: str) -> str:
+    """Return the lesson on why the node receives no messages on the robot's `topic`; '' (the check's) if it does."""
     remedy = _missing_subscription(run, topic)
     return remedy.see if remedy else ""
 
 
 def _missing_subscription(run: Record, topic: str) -> Remedy | None:
     topics = run.first(ev.NodeTopics)
-    if topics is None or _hears(run, topic) in (None, True):
+    if topics is None or _is_subscribed(run, topic) in (None, True):
         return None
     names = [name for name in topics.subscribes if _base(name) == topic]
     elsewhere = [name for name in names if name not in _robots_names(run)]
@@ -45,8 +45,8 @@ def _missing_subscription(run: Record, topic: str) -> Remedy | None:
         )
     if names:
         return Remedy(
-            f"You subscribe to {topic}, but the robot's messages do not match: compare the type, and ask for no more "
-            "than the robot's QoS offers (qos_profile_sensor_data for its sensors).",
+            f"You subscribe to {topic}, but your subscription does not match the robot's publisher: compare the type, "
+            "and request no more than the robot's QoS offers (qos_profile_sensor_data for its sensors).",
             "01_robot_and_graph#qos-fix-intro",
         )
     others = ", ".join(map(_shown, topics.subscribes))
@@ -56,8 +56,8 @@ def _missing_subscription(run: Record, topic: str) -> Remedy | None:
     )
 
 
-def why_nothing_is_commanded(run: Record, topic: str, *, before: float) -> str | None:
-    """Return why no command reaches the robot on `topic` by a time (s): no publisher, elsewhere, or too late."""
+def why_no_command_arrives(run: Record, topic: str, *, before: float) -> str | None:
+    """Return why no command reached the robot on `topic` `before` a time (s), as a phrase on its publisher."""
     topics = run.all(ev.NodeTopics)
     connected = [
         peers.t
@@ -70,8 +70,8 @@ def why_nothing_is_commanded(run: Record, topic: str, *, before: float) -> str |
         if min(connected) <= before:
             return None
         return (
-            "a publisher that appeared after the request: make it in the constructor, as the robot needs a moment to "
-            "find it"
+            "a publisher that appeared after the request: create it in the constructor, because the robot needs a "
+            "moment to discover it"
         )
     published = [name for at in topics for name in at.publishes if _base(name) == topic]
     elsewhere = [name for name in published if name not in _robots_names(run)]
@@ -96,7 +96,7 @@ def _shown(name: str) -> str:
 
 def _relative(name: str) -> str:
     return (
-        "remove the slash in front, so that the namespace comes before the name"
+        "remove the leading slash, so that the node's namespace is added to the name"
         if name.count("/") == 1
-        else "give the bare relative name, without a namespace"
+        else "use the relative name alone, without a namespace"
     )

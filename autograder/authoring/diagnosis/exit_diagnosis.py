@@ -1,4 +1,4 @@
-"""Why a student's program ended by itself, and the one thing to do about it: by its status and its last words."""
+"""Why a student's program ended by itself, and what to do about it, from its exit status and its last output."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from dataclasses import dataclass
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.record import Record
 
-GROWS = "Look for a list that grows with every message, request or round of a loop: keep only the last."
+GROWS = (
+    "Look for a list that grows with every message, request or round of a loop: keep only the last element."
+)
 LEAKS = "03b_clients_in_bad_company#leak-why"
 SERVES_ONE_REQUEST = "02_services#first-intro"
 WRONG_TYPE = "02_services#fields-why"
@@ -20,21 +22,21 @@ _CRASHED = (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS)
 
 @dataclass(frozen=True)
 class Remedy:
-    """What to do, and the lesson that shows it; the default is the check's."""
+    """What to do, and the lesson that shows how; '' stands for the check's lesson."""
 
     help: str
     see: str = ""
 
 
-# What the student's traceback says, from the most particular sign to the most general one.
+# Remedies by a pattern in the student's traceback, the most specific pattern first.
 _SIGNS: dict[str, Remedy] = {
     r"in send_response\n(?s:.*)^TypeError$": Remedy(
-        "Your service callback{of} returned nothing, or something else than the response. Its last line must be "
-        "`return response`, in every branch.",
+        "Your service callback{of} returned nothing, or something other than the response. End every branch with "
+        "`return response`.",
         "02_services#first-intro",
     ),
     r"^AssertionError: The 'result' field must be a sub message": Remedy(
-        "Your execute callback returned nothing, or something else than a Result: end every branch with "
+        "Your execute callback returned nothing, or something other than a Result: end every branch with "
         "`return result`. A lambda that calls an async function returns a coroutine: give ActionServer the async "
         "function itself.",
         "06_walk_to_a_pose#settle-intro",
@@ -62,7 +64,7 @@ _SIGNS: dict[str, Remedy] = {
         "`parser.parse_args(rclpy.utilities.remove_ros_args(sys.argv)[1:])`.",
     ),
     r"error: (the following arguments are required|unrecognized arguments|argument \w+: )": Remedy(
-        "argparse refused what the task allows: an argument that may be left out has nargs='?' and a default."
+        "argparse rejected arguments that the task allows: give an optional argument nargs='?' and a default."
     ),
     r"^AttributeError: '\w+_(Request|Response|Goal|Result|Feedback)' object has no attribute": Remedy(
         "The interface has no field of that name: compare it with `ros2 interface show`.", CRASHES
@@ -93,30 +95,29 @@ _SIGNS: dict[str, Remedy] = {
         f"It used too much memory. {GROWS}", LEAKS
     ),
     r"^(ImportError|ModuleNotFoundError|IndentationError|SyntaxError|TabError)\b": Remedy(
-        "Python could not load the file: mend the line that the log names, and run its cell again.",
+        "Python could not load the file: fix the line that the log names, and run its cell again.",
         "02_services#first-file",
     ),
     r"^EOFError: EOF when reading a line": Remedy(
-        "input() found no keyboard: nobody types where a node runs. Leave it out, and take settings from "
-        "parameters.",
+        "input() failed, because nobody types on a node's stdin: remove it, and read settings from parameters.",
         "02_services#first-file",
     ),
 }
 
 
-_LIMITS: dict[str, Remedy] = {  # by what the reason of a NodeKilled names
+_LIMITS: dict[str, Remedy] = {  # by a pattern in the reason of a NodeKilled
     r" files\b": Remedy(
-        "Look for files that are made in a callback or in a loop: make none, or one at the start."
+        "Look for files that are created in a callback or in a loop: create none, or one at the start."
     ),
     r" sockets\b": Remedy(
-        "Look for nodes, clients or connections that are made in a callback or in a loop: make each one once."
+        "Look for nodes, clients or connections that are created in a callback or in a loop: create each one once."
     ),
     r"": Remedy(GROWS, LEAKS),
 }
 
 
 def remedy_for_a_limit(killed: ev.NodeKilled) -> Remedy:
-    """Return what to do about a program that was ended above a limit."""
+    """Return what to do about a program that was ended because it exceeded a limit."""
     return next(remedy for words, remedy in _LIMITS.items() if re.search(words, killed.reason))
 
 
@@ -126,16 +127,16 @@ def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
         return _with_place(remedy, run)
     if -exited.returncode in _CRASHED:
         return Remedy(
-            f"{signal.Signals(-exited.returncode).name} ended the program, a crash below Python: use no node "
-            "or publisher after destroy_node(), and none of them in two threads at once."
+            f"{signal.Signals(-exited.returncode).name} ended the program, a crash in native code: use no node "
+            "or publisher after destroy_node(), nor in two threads at once."
         )
     if exited.returncode > 0 and _gave_up(run):
         return Remedy(
-            f"Your program chose to end so. The grader offered {_offered(run)}: is the reason true, and are all names "
-            "relative and all types the task's?"
+            f"Your program ended on purpose, although the grader offered {_offered(run)}: check its reason, and that "
+            "all names are relative and all types those of the task."
         )
     if exited.returncode and run.first(ev.NodeReady) is None:
-        return _with_place(Remedy("The exception came before your node could serve."), run)
+        return _with_place(Remedy("The exception was raised before your node was ready."), run)
     if exited.returncode:
         return _with_place(
             Remedy("An exception in a callback ends rclpy.spin(), and with it the node.", CRASHES), run
@@ -145,11 +146,11 @@ def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
             "Use rclpy.spin(node), not spin_once, and do not shut down in a callback: a server runs until Ctrl-C.",
             SERVES_ONE_REQUEST,
         )
-    return Remedy("main() returned before everything was done: look at what it waits for.")
+    return Remedy("main() returned before everything was done: check what it waits for.")
 
 
 def remedy_for_a_traceback(output: str) -> Remedy | None:
-    """Return what to do about the last exception in a program's output, if it has a known sign."""
+    """Return what to do about the last exception in a program's output, if it is a known one."""
     traceback = _last_traceback(output)
     return next((remedy for sign, remedy in _SIGNS.items() if re.search(sign, traceback, re.MULTILINE)), None)
 
@@ -166,7 +167,7 @@ def end_in_words(run: Record, exited: ev.NodeExited) -> str:
 
 
 def raised_in(traceback: str) -> str | None:
-    """Return the last line of a traceback that is in the student's file, unless that is where the program spins."""
+    """Return the last line of a traceback that is in the student's file, unless that line spins the node."""
     frames = re.findall(r'^\s*File "([^"]+)", line (\d+), in ([\w.<>]+)', traceback, re.MULTILINE)
     own = [index for index, (path, *_) in enumerate(frames) if OWN_FILE.search(path)]
     if not own or any(function.startswith("spin") for *_, function in frames[own[-1] + 1 :]):
@@ -177,14 +178,14 @@ def raised_in(traceback: str) -> str | None:
 
 
 def _with_place(remedy: Remedy, run: Record) -> Remedy:
-    """Name the student's line that raised, if one did, and the service that was being answered."""
+    """Add the student's line that raised, if known, and the service whose request was being answered."""
     place = raised_in(_last_traceback(run.output("stderr")))
     where = f" It was raised in {place}." if place else ""
     return Remedy(remedy.help.replace("{of}", _being_answered(run)) + where, remedy.see)
 
 
 def _last_traceback(output: str) -> str:
-    """Return the end of the output from the last traceback on: an earlier one did not end the program."""
+    """Return the output from its last traceback on: earlier ones did not end the program."""
     return output.rpartition("Traceback (most recent call last):")[2]
 
 
@@ -196,7 +197,7 @@ def _being_answered(run: Record) -> str:
 
 
 def _gave_up(run: Record) -> bool:
-    """Return whether a client ended without an exception, though something was offered to it."""
+    """Return whether a client ended without an exception, although the grader offered it something."""
     return (
         bool(_offered(run)) and not _is_a_server(run) and "Traceback (most recent" not in run.output("stderr")
     )
@@ -211,5 +212,5 @@ def _offered(run: Record) -> str:
 
 
 def _is_a_server(run: Record) -> bool:
-    """Return whether the grader asked the program for something, and not the other way round."""
+    """Return whether the student's program is a server, with the grader as its client."""
     return any(run.first(kind) is not None for kind in (ev.ServiceCalled, ev.GoalSent, ev.NodeSignalled))

@@ -1,4 +1,4 @@
-"""Why a goal ended otherwise than it should, or not at all, and what to do: by its status, its feedback and the log."""
+"""Why a goal ended with a wrong status or not at all, and what to do, from its status, its feedback and the log."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from ros_runtime.message_constants import GoalStatus, name_of
 if TYPE_CHECKING:
     from autograder.authoring.evidence.goal import Goal
 
-STILL_COMING = 1.5  # s; a goal whose last feedback is not older is still in its loop
-FROZEN = 10  # feedback messages; so many alike are no coincidence while the robot moves
-MOVED = 0.05  # m
-AWAY = 0.5  # m farther from the goal than at first
-BLIND = "05_executors#one-why"
-IN_THE_LOG = 0.5  # s that a line of the log may come after the result it explains
+LOOP_TIME = 1.5  # s; if the last feedback is not older, execute is still in its loop
+MIN_FROZEN = 10  # feedback messages; so many with the same distance are no coincidence while the robot moves
+MOVED_DISTANCE = 0.05  # m
+AWAY_DISTANCE = 0.5  # m farther from the goal than at first
+STARVED_LESSON = "05_executors#one-why"
+LOG_DELAY = 0.5  # s by which a line of the log may come after the result that it explains
 _CALLS: dict[int, str] = {
     GoalStatus.SUCCEEDED: "succeed",
     GoalStatus.CANCELED: "canceled",
     GoalStatus.ABORTED: "abort",
 }
 _CANCELED_INSTEAD: dict[int, str] = {
-    GoalStatus.SUCCEEDED: "An accepted cancel ends with goal_handle.canceled(), not succeed(): look at "
+    GoalStatus.SUCCEEDED: "An accepted cancel ends with goal_handle.canceled(), not succeed(): check "
     "is_cancel_requested in every round.",
     GoalStatus.ABORTED: "Once is_cancel_requested is seen, stop the robot, call goal_handle.canceled() and return.",
 }
@@ -43,16 +43,16 @@ def why_it_ended_so(goal: Goal, wanted: int) -> str:
     code = error_name(goal)
     if wanted == GoalStatus.CANCELED and ended == GoalStatus.ABORTED and code not in ("", "NONE"):
         return (
-            f"After the cancel your server aborted the goal with {code}: what it does first on a cancel led there. "
-            "Leave robot and object safe, and then call goal_handle.canceled()."
+            f"After the cancel your server aborted the goal with {code}, because its reaction to the cancel failed. "
+            "Bring robot and object to a safe state, and then call goal_handle.canceled()."
         )
     if wanted == GoalStatus.CANCELED and ended in _CANCELED_INSTEAD:
         return _CANCELED_INSTEAD[ended]
     if wanted == GoalStatus.ABORTED:
         return _ABORT
     if ended in _CALLS:
-        return f"execute called goal_handle.{_CALLS[ended]}(): look at what led there."
-    return "Look at which terminal call (succeed, canceled, abort) execute makes on this path."
+        return f"execute called goal_handle.{_CALLS[ended]}(): check the condition before this call."
+    return "Check which terminal call (succeed, canceled, abort) execute makes on this path."
 
 
 def error_name(goal: Goal) -> str:
@@ -68,8 +68,8 @@ def lesson_on_the_end(goal: Goal) -> str:
 
 
 def why_rclpy_aborted(goal: Goal) -> str | None:
-    """Return why rclpy, and not execute, aborted the goal: it raised, or it made no terminal call. None: neither."""
-    end = goal.result.t + IN_THE_LOG if goal.result else goal.run.end
+    """Return why rclpy aborted the goal: execute raised, or made no terminal call. None: rclpy did not abort it."""
+    end = goal.result.t + LOG_DELAY if goal.result else goal.run.end
     lines = [line.text for line in goal.run.all(ev.NodeOutput) if goal.sent.t <= line.t <= end]
     log = "\n".join(lines)
     if raised := re.search(r"Error raised in execute callback: *(.*)", log):
@@ -91,81 +91,82 @@ def why_rclpy_aborted(goal: Goal) -> str | None:
 
 
 def _why_forbidden(where: str, state: str, event: str) -> str:
-    """Return why rcl did not let the goal go from a state by an event."""
+    """Return what to do about a state transition that rcl rejected."""
     if state not in ("EXECUTING", "CANCELING"):
         return f"execute made a second terminal call{where}: the goal was {state} already. Return after the first one."
     if event == "CANCELED":
         return (
-            f"execute called goal_handle.canceled(){where}, but nobody had asked to cancel this goal, so rclpy aborted "
+            f"execute called goal_handle.canceled(){where}, but no cancel of this goal was requested, so rclpy aborted "
             "it. Call canceled() only when is_cancel_requested of this very goal is true."
         )
     return f"execute made a call{where} that a goal in state {state} does not allow, so rclpy aborted it."
 
 
 def why_starved(goal: Goal) -> str | None:
-    """Return what to do if execute keeps the node from being served: what it reports never changes while it runs."""
+    """Return what to do if execute blocks all callbacks, so that its feedback never changes while the robot moves."""
     distances = [getattr(feedback.feedback, "distance_remaining", None) for feedback in goal.feedback]
-    if len(distances) < FROZEN or None in distances or len(set(distances)) > 1 or not _robot_moved(goal):
+    if len(distances) < MIN_FROZEN or None in distances or len(set(distances)) > 1 or not _robot_moved(goal):
         return None
     return (
-        f"distance_remaining stayed {distances[0]:.2f} m in all {len(distances)} feedback messages: no message of odom "
-        "is served while execute holds the only thread. Use MultiThreadedExecutor, or an async execute that awaits."
+        f"distance_remaining stayed {distances[0]:.2f} m in all {len(distances)} feedback messages: the callback of "
+        "odom never runs while execute occupies the only thread. Use MultiThreadedExecutor, or an async execute that "
+        "awaits."
     )
 
 
 def _robot_moved(goal: Goal) -> bool:
-    """Return whether the robot moved while feedback came."""
+    """Return whether the robot moved between the first and the last feedback."""
     first, last = goal.feedback[0].t, goal.feedback[-1].t
     seen = [robot for robot in goal.run.ground_truth if first <= robot.t <= last]
-    return any(math.hypot(robot.x - seen[0].x, robot.y - seen[0].y) > MOVED for robot in seen)
+    return any(math.hypot(robot.x - seen[0].x, robot.y - seen[0].y) > MOVED_DISTANCE for robot in seen)
 
 
-def _why_it_never_came(goal: Goal) -> str:
-    """Return why the result of a goal that has ended did not come."""
+def _why_no_result_after_the_end(goal: Goal) -> str:
+    """Return why a goal reached a final status, but sent no result."""
     if place := where_it_waited(goal.run):
-        return f"execute has not returned since its terminal call: it stood in {place}. Return the result at once."
+        return f"execute made its terminal call but has not returned: it was blocked in {place}. Return the result."
     if goal.run.first(ev.NodeStack):
         return (
-            "Nothing of your node is served any more: a spin inside a callback, such as "
-            "rclpy.spin_until_future_complete(self, …), takes the node away from its executor. Do not spin in execute."
+            "No callback of your node runs any more: a spin inside a callback, such as "
+            "rclpy.spin_until_future_complete(self, …), removes the node from its executor. Do not spin in execute."
         )
     return "The goal has ended, but execute returned no result: its last line must be `return result`."
 
 
 def went_on(goal: Goal) -> bool:
-    """Return whether feedback came until the scenario stopped waiting for the result."""
+    """Return whether feedback was still coming when the scenario stopped waiting for the result."""
     given_up = goal.run.given_up("result", goal.name)
     end = given_up.t if given_up else goal.run.end
-    return any(end - STILL_COMING <= feedback.t <= end for feedback in goal.feedback)
+    return any(end - LOOP_TIME <= feedback.t <= end for feedback in goal.feedback)
 
 
 def why_no_result(goal: Goal) -> tuple[str, str]:
-    """Return what was seen of a goal without a result, and what to do: by its last status and feedback."""
+    """Return what was observed of a goal without a result, and what to do, by its last status and feedback."""
     status = goal.statuses[-1].status if goal.statuses else GoalStatus.UNKNOWN
     seen = f"no result; the goal's last status was {name_of(GoalStatus, status)}"
     if status in _CALLS:
-        return seen, _why_it_never_came(goal)
+        return seen, _why_no_result_after_the_end(goal)
     if status == GoalStatus.ACCEPTED:
         return seen, (
-            "The goal is accepted and not executed: nobody called goal_handle.execute(). A handle_accepted_callback "
-            "must call it, also for a goal that has to wait its turn."
+            "The goal was accepted but never executed: a handle_accepted_callback must call goal_handle.execute(), "
+            "also for a goal that has to wait for another."
         )
-    if blind := why_starved(goal):
-        return f"{seen}, and feedback still came", blind
+    if starved := why_starved(goal):
+        return f"{seen}, and feedback still came", starved
     if went_on(goal):
         left = getattr(goal.feedback[-1].feedback, "distance_remaining", None)
         where = "" if left is None else f", {left:.2f} m from the goal"
         if status == GoalStatus.CANCELING:
-            ends = "The cancel was accepted: look at goal_handle.is_cancel_requested in every round."
-        elif left is not None and left > goal.feedback[0].feedback.distance_remaining + AWAY:
-            ends = (
-                "It goes away from it: cmd_vel is in base_link's axes, so turn the difference in x and y by minus the "
-                "heading."
+            advice = "The cancel was accepted: check goal_handle.is_cancel_requested in every round."
+        elif left is not None and left > goal.feedback[0].feedback.distance_remaining + AWAY_DISTANCE:
+            advice = (
+                "The robot moves away from the goal: cmd_vel is in base_link's axes, so rotate the difference in x and "
+                "y by minus the heading."
             )
         else:
-            ends = "What ends it?"
-        return f"{seen}, and feedback still came", f"execute is still in its loop{where}. {ends}"
+            advice = "Check the condition that ends the loop."
+        return f"{seen}, and feedback still came", f"execute is still in its loop{where}. {advice}"
     last = f"its last feedback came at {goal.feedback[-1].t:.1f} s" if goal.feedback else "without feedback"
     place = where_it_waited(goal.run)
-    stood = f" It stood in {place}." if place else ""
-    return f"{seen}, {last}", f"execute is still running: something in it waits without a time limit.{stood}"
+    blocked = f" It was blocked in {place}." if place else ""
+    return f"{seen}, {last}", f"execute is still running: something in it waits without a timeout.{blocked}"

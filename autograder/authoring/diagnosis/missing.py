@@ -1,4 +1,4 @@
-"""What a check raises if something it asks about is not in the record: absence of evidence never passes."""
+"""The exceptions for evidence that is missing in a record: absence of evidence never passes."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _FIRST_OF_ALL = "Find out what your node did just before: the log below shows wh
 
 
 class Missing(Failure):
-    """Something between grader and student's program never happened: 'it was never asked, because …'."""
+    """A request, a goal or a step of the scenario never happened, because of the submission."""
 
     def __init__(self, run: Record, *, expected: str, never: str) -> None:
         cause = why_it_went_no_further(run) or why_the_robot_was_held_up(run)
@@ -25,21 +25,24 @@ class Missing(Failure):
 
 
 def unseen(run: Record, what: str) -> Exception:
-    """Return what to raise if a step of the scenario is missing; `what` is a sentence without its full stop.
+    """Return the exception for missing evidence: a `Failure` if the submission is the cause, else `CannotBeJudged`.
 
-    That is a `Failure` where the submission itself is the reason, else `CannotBeJudged`.
+    `what` says what is missing, in a sentence without its full stop.
     """
     return _exception_for(run, what, why_the_robot_was_held_up(run) or why_it_went_no_further(run))
 
 
 def not_shown(run: Record, what: str) -> Exception:
-    """Return what to raise if nothing shows whether the sentence `what` holds; only the submission decides that."""
+    """Return the exception if a run does not show whether the sentence `what` holds: a `Failure` or `NoOccasion`."""
     found = unseen(run, f"nothing shows whether {what}")
     return found if isinstance(found, Failure) else NoOccasion(what)
 
 
 def held_up(run: Record, what: str) -> Exception:
-    """Return what to raise if the robot did not do its part; a node that ended does not explain that."""
+    """Return the exception if the robot did not do its part: a `Failure` if the submission overloaded it.
+
+    That the node has ended does not count as the cause.
+    """
     return _exception_for(run, what, why_the_robot_was_held_up(run))
 
 
@@ -47,7 +50,7 @@ def _exception_for(run: Record, what: str, cause: Cause | None) -> Exception:
     if cause is None:
         return CannotBeJudged(f"{run.scenario}: {what}")
     return Failure(
-        expected="a node that leaves robot and grader to do their part",
+        expected="a node that does not keep robot and grader from their work",
         observed=f"{what}, because {cause.words}",
         help=cause.help,
         at=cause.at,

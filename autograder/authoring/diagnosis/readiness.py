@@ -1,6 +1,6 @@
 """The first requirements on any run: the student's node appeared, and kept running.
 
-The engine asks before every check whether it appeared.
+The engine requires before every check that the node appeared.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from autograder.authoring.evidence.record import Record
 from autograder.authoring.failure import Failure
 
 _IS_OF_PARAMETERS = re.compile(r"\w/(describe|get|set)_parameters(_atomically)?$")
-ALIKE = 0.6  # of two names; above it one is taken for a misspelling of the other
+MIN_SIMILARITY = 0.6  # of two names, for one to count as a misspelling of the other
 
 
 def require_ready(run: Record) -> None:
@@ -29,7 +29,7 @@ def require_ready(run: Record) -> None:
     if absent is None:
         require_started(run)
         if run.first(ev.NodeReady) is None:
-            raise unseen(run, "nobody looked whether the node was there")
+            raise unseen(run, "the record does not say whether the node was ready")
         return
     names = _readable(absent.missing)
     require_within_limits(run)
@@ -76,7 +76,7 @@ def require_within_limits(run: Record) -> None:
 
 
 def require_alive(run: Record, instead: str = "") -> None:
-    """Require that the student's process did not end while the scenario ran; `instead` is what to do if it raised."""
+    """Require that the student's process did not end during the scenario; `instead` comes first in its help."""
     require_within_limits(run)
     exited = run.first(ev.NodeExited)
     if exited and run.first(ev.NodeSignalled) is None:
@@ -101,7 +101,7 @@ def _base(name: str) -> str:
 
 
 def _what_is_offered_instead(run: Record, absent: ev.NodeNotReady) -> tuple[str, str]:
-    """Return the next step by the nearest miss among what is offered, and its lesson ('': the check's)."""
+    """Return what to do, by the offered name most similar to the missing one, and its lesson ('': the check's)."""
     offered: dict[str, str] = {}  # by the full name, without an action's endpoints
     for text in absent.offered:
         name, _, type_name = text.partition(" ")
@@ -115,20 +115,20 @@ def _what_is_offered_instead(run: Record, absent: ev.NodeNotReady) -> tuple[str,
         )
     if not offered:
         return (
-            f"Your node offers no {kind}: create the server in the node's constructor, and keep it in self. If it is "
-            "there already, the constructor never gets that far: it waits for something before, such as a first "
-            "message. Create the server first, and wait in callbacks.",
+            f"Your node offers no {kind}: create the server in the node's constructor, and keep it in self. If you do "
+            "so already, the constructor waits for something earlier, such as a first message: create the server "
+            "first, and wait in callbacks.",
             "",
         )
     namesakes = [name for name in offered if _base(name) == wanted]
     if namesakes:
         return _misplaced(namesakes[0], offered[namesakes[0]], _namespace(run), kind, wanted)
-    alike = difflib.get_close_matches(wanted, map(_base, offered), n=1, cutoff=ALIKE)
-    if alike:
-        return f"You offer {alike[0]}; the task's name is {wanted}, letter by letter.", ""
+    similar = difflib.get_close_matches(wanted, map(_base, offered), n=1, cutoff=MIN_SIMILARITY)
+    if similar:
+        return f"You offer {similar[0]}; the task requires exactly the name {wanted}.", ""
     return (
-        f"You offer {', '.join(map(_base, offered))}, but not {wanted}: create it in the constructor too, under the "
-        "task's name.",
+        f"You offer {', '.join(map(_base, offered))}, but not {wanted}: create it in the constructor, too, with the "
+        "name that the task gives.",
         "",
     )
 
@@ -140,11 +140,11 @@ def _node_without_parameters(missing: list[str]) -> str:
 
 
 def _misplaced(name: str, type_name: str, namespace: str, kind: str, wanted: str) -> tuple[str, str]:
-    """Return what to do about a name that is right, though its namespace or its type is not."""
+    """Return what to do about the right name in a wrong namespace, or with a wrong type."""
     if name == f"/{wanted}":
         return f"You offer {name}, outside the namespace: remove the slash.", OUTSIDE
     if namespace and name != f"{namespace}/{wanted}":
-        return f"You offer {name}: give the name {wanted!r} alone, without '~' or a namespace.", OUTSIDE
+        return f"You offer {name}: use the name {wanted!r} alone, without '~' or a namespace.", OUTSIDE
     return f"You offer {wanted} as {type_name}: give the {kind} the type that the task names.", ""
 
 

@@ -1,9 +1,10 @@
-"""The root cause of a gap in the record, if the submission caused it."""
+"""The root cause of missing evidence, if the submission is that cause."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from autograder.authoring.diagnosis.blocked_callback import remedy_for_no_answer
 from autograder.authoring.diagnosis.exit_diagnosis import (
     GROWS,
     LEAKS,
@@ -11,44 +12,23 @@ from autograder.authoring.diagnosis.exit_diagnosis import (
     remedy_for_a_limit,
     remedy_for_the_end,
 )
-from autograder.authoring.diagnosis.stack_location import where_it_waited, why_nobody_serves
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.record import Record
 
-# Processor-seconds that a sound program may use to start, and in each second of the arena's clock: as many on a busy
-# machine as on an idle one, and several times what it needs. One that uses more caused what comes late itself.
+# Processor-seconds that a program may use to start, and in each second of the arena's clock. This is several times what
+# a correct program needs, on a busy machine as on an idle one: a program that uses more has caused delays itself.
 STARTUP_CPU_TIME, ALLOWED_LOAD = 2.0, 0.3
-ONE_INTERPRETER = 1.4  # processors: what Python and the threads of the middleware can keep busy for a while
-
-SERVES = "02_services#first-intro"
-DEADLOCK = "02_services#m4-why"
-_WAITS = (
-    "A callback may not wait, sleep or call another service while the node has only one thread: nobody else is "
-    "served meanwhile."
-)
-_AWAITS = (
-    "No thread stood still, so a callback awaits what never comes. A node's default callback group lets in one "
-    "callback at a time: give a client inside a callback a group of its own, and the await a time limit."
-)
+ONE_INTERPRETER = 1.4  # processors that one Python and the middleware's threads can keep busy for a while
 
 
 @dataclass(frozen=True)
 class Cause:
-    """A reason that follows “because” in a sentence, what to do about it, when it happened (s), and the lesson."""
+    """A cause in words that follow “because”, what to do about it, when it happened (s), and the lesson."""
 
     words: str
     help: str
     at: float
     see: str = ""
-
-
-def about_waiting(run: Record) -> tuple[str, str]:
-    """Return what to do about a program that gives no answer, by the line on which it stood, and the lesson."""
-    if place := where_it_waited(run):
-        return f"It stood in {place}. {_WAITS}", DEADLOCK
-    if idle := why_nobody_serves(run):
-        return idle, SERVES
-    return _WAITS if run.first(ev.NodeStack) is None else _AWAITS, DEADLOCK
 
 
 def why_it_went_no_further(run: Record) -> Cause | None:
@@ -57,7 +37,7 @@ def why_it_went_no_further(run: Record) -> Cause | None:
 
 
 def why_the_robot_was_held_up(run: Record) -> Cause | None:
-    """Return how the submission held up the robot: by messages it had to refuse, busy processors, or all the memory."""
+    """Return how the submission overloaded the robot: by messages over a limit, memory or processor time."""
     return _refused(run) or _overfull(run) or _busy(run)
 
 
@@ -75,8 +55,8 @@ def _overfull(run: Record) -> Cause | None:
     if overfull is None:
         return None
     words = (
-        f"your program, with all it started, filled the arena: {overfull.memory_mib:.0f} MiB of memory at "
-        f"{overfull.t:.1f} s; {overfull.limit_mib} MiB are there for everybody"
+        f"your program and the processes that it started used too much memory: at {overfull.t:.1f} s the whole arena "
+        f"held {overfull.memory_mib:.0f} MiB; its limit is {overfull.limit_mib} MiB"
     )
     return Cause(words, GROWS, overfull.t, LEAKS)
 
@@ -96,13 +76,13 @@ def _unanswered(run: Record) -> Cause | None:
         return None
     what = {
         "call": f"{_service_of(run, given_up.id)} had given no answer",
-        "goal": f"the goal “{given_up.id}” had got neither yes nor no",
-        "cancel": "the cancel request had got no answer",
-        "result": f"the goal “{given_up.id}” had got no result",
-        "end": "the program still ran",
+        "goal": f"the goal “{given_up.id}” was neither accepted nor rejected",
+        "cancel": "the cancel request had no answer",
+        "result": f"the goal “{given_up.id}” had no result",
+        "end": "the program was still running",
     }[given_up.what]
-    help, see = about_waiting(run)
-    return Cause(f"{what} after {given_up.waited:.1f} s", help, given_up.t, see)
+    remedy = remedy_for_no_answer(run)
+    return Cause(f"{what} after {given_up.waited:.1f} s", remedy.help, given_up.t, remedy.see)
 
 
 def _service_of(run: Record, call: str) -> str:
@@ -117,7 +97,7 @@ def _refused(run: Record) -> Cause | None:
     last = [refusal for refusal in refusals if refusal.topic == topic][-1]
     return Cause(
         f"your node sent {last.count:,} {topic} messages of up to {_size(last.bytes)}; {last.reason}",
-        "Publish on the robot's topics only what the task asks for, at the rate of a timer, not in a loop without end.",
+        "Publish on the robot's topics only what the task asks for, from a timer and not in an endless loop.",
         last.t,
     )
 
@@ -139,12 +119,12 @@ def _busy(run: Record) -> Cause | None:
 
 
 def _load_in_words(run: Record) -> str:
-    """Return what the submission used of the processors if that is too much, else nothing."""
+    """Return how much processor time the submission used, if that was too much; else ''."""
     usage = run.first(ev.NodeUsage)
     if usage is None:
         return ""
     allowed = STARTUP_CPU_TIME + ALLOWED_LOAD * usage.in_time
-    subject = "your program, with all it started,"
+    subject = "your program, with the processes that it started,"
     if usage.cpu_in_time > allowed:
         return (
             f"{subject} used more than {allowed:.1f} processor-seconds in {usage.in_time:.1f} s: "

@@ -1,4 +1,4 @@
-"""Where a program stood that gave no answer: the line of the student's file, from what Python said at its end."""
+"""The line of the student's file in which a program was blocked, from the stacks that Python printed at its end."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.record import Record
 
 _FRAME = re.compile(r'File "([^"]+)", line (\d+) in ([\w.<>]+)')
-_SPINNING = ("main", "<module>")  # functions in which a healthy program waits for something to do
+_SPINNING = ("main", "<module>")  # functions in which a correct server spins
 
 
 @dataclass(frozen=True)
 class Place:
-    """A line of the student's file, and what it was calling."""
+    """A line of the student's file, and the function that it was calling."""
 
     file: str
     line: int
     function: str
-    calls: str  # "" where it is Python's own, such as time.sleep
+    calls: str  # "" for a built-in function of Python, such as time.sleep
 
     def __str__(self) -> str:
         calls = f", in a call of {self.calls}()" if self.calls else ""
@@ -28,9 +28,9 @@ class Place:
 
 
 def where_it_waited(run: Record, *, in_main: bool = False) -> Place | None:
-    """Return where a thread of the student's stood in a callback when the program was ended, if one did.
+    """Return where a thread was blocked in a callback when the program was ended; None if no thread was.
 
-    `in_main` looks also into main(), where a client waits, but where a server only spins.
+    `in_main` also considers main(), in which a client waits, but a server only spins.
     """
     stack = run.first(ev.NodeStack)
     if stack is None:
@@ -45,14 +45,14 @@ def where_it_waited(run: Record, *, in_main: bool = False) -> Place | None:
 
 
 def why_nobody_serves(run: Record) -> str | None:
-    """Return what to do if no thread of a server spun when it was ended, though none stood in a callback."""
+    """Return what to do if no thread of a server was spinning, or in a callback, when it was ended; else None."""
     stack = run.first(ev.NodeStack)
     main = where_it_waited(run, in_main=True)
     if stack is None or main is None or main.function not in _SPINNING:
         return None
     if any(function.startswith("spin") for line in stack.lines for *_, function in _FRAME.findall(line)):
         return None
-    return f"Nothing serves the node's callbacks: it stood in {main}, and not in rclpy.spin(node)."
+    return f"No thread runs the node's callbacks: it was in {main}, and not in rclpy.spin(node)."
 
 
 def _innermost(thread: str) -> Place | None:

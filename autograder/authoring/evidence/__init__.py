@@ -1,1 +1,1 @@
-"""A run as it was recorded: its events, calls, goals and ground truth, to be asked by checks."""
+"""A recorded run, as checks query it: its events, calls, goals and ground truth."""

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from autograder.authoring.diagnosis.blocked_callback import remedy_for_no_answer
 from autograder.authoring.diagnosis.readiness import require_alive
-from autograder.authoring.diagnosis.root_cause import about_waiting
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.fields import expect_field
 from autograder.authoring.failure import Failure, expect
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Call:
-    """One service call. Requirements on its answer fail with a reason if none came."""
+    """One service call. If there is no answer, requirements on it fail with the reason."""
 
     name: str
     sent: ev.ServiceCalled
@@ -27,7 +27,7 @@ class Call:
 
     @property
     def service(self) -> str:
-        """The name of the service, as the scenario has it."""
+        """The name of the service, as the scenario wrote it."""
         return self.sent.service
 
     @property
@@ -47,23 +47,25 @@ class Call:
             return self.answer
         require_alive(self.run)
         given_up = self.run.given_up("call", self.name)
-        help, see = about_waiting(self.run)
+        remedy = remedy_for_no_answer(self.run)
         waited = given_up.waited if given_up else self.run.end - self.sent.t
         raise Failure(
             expected=f"an answer to {self.service}",
             observed=f"none within {waited:.0f} s{self._nor_to_others()}{self._meanwhile(waited)}",
-            help=help,
+            help=remedy.help,
             at=self.sent.t,
-            see=see,
+            see=remedy.see,
         )
 
     def _nor_to_others(self) -> str:
-        """Say that no request at all was answered, where there were several."""
+        """Return a note if none of several requests was answered, else ''."""
         asked, answered = self.run.all(ev.ServiceCalled), self.run.first(ev.ServiceAnswered)
-        return f", nor to any other of {len(asked)} requests" if len(asked) > 1 and answered is None else ""
+        return (
+            f"; none of all {len(asked)} requests was answered" if len(asked) > 1 and answered is None else ""
+        )
 
     def _meanwhile(self, waited: float) -> str:
-        """Say which topic of the robot went on while nobody answered: the callback did not lack a message."""
+        """Return a note on the robot's topic that was published meanwhile: the callback did not lack a message."""
         for kind, topic in ((ev.BatteryPublished, "battery_state"), (ev.JointsPublished, "joint_states")):
             times = sum(self.sent.t < message.t < self.sent.t + waited for message in self.run.all(kind))
             if times:
@@ -76,17 +78,17 @@ class Call:
         return self.answer.t - self.sent.t if self.answer else math.inf
 
     def expect(self, path: str, value: Any, *, because: str, help: str, see: str = "") -> None:
-        """Require that a field of the response has a value, `because` of what the robot or the request was."""
+        """Require that a field of the response has a value, `because` of a state of the robot or of the request."""
         expect_field(self.response, path, value, because=because, help=help, at=self.answered.t, see=see)
 
     def require(self, condition: bool, *, expected: str, observed: str, help: str, see: str = "") -> None:
-        """Require of its answer that a condition holds."""
+        """Require that a condition on its answer holds; a failure has the time of the answer."""
         expect(condition, expected=expected, observed=observed, help=help, at=self.answered.t, see=see)
 
 
 @dataclass(frozen=True)
 class Request:
-    """One request of the student's client to a scripted service, and the reply it got (None: none)."""
+    """One request of the student's client to a scripted service, and the reply (None: there was none)."""
 
     received: ev.RequestReceived
     reply: ev.ReplySent | None

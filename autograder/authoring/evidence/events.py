@@ -1,7 +1,7 @@
-"""The events of a transcript, as authors of checks see them, and how a line of an arena's report becomes one.
+"""The events of a transcript, and the parser for the lines of an arena's report.
 
-The lines come from a process that parses bytes written by untrusted code, so they are validated here before anything
-judges them.
+The lines come from a process that parses bytes written by untrusted code, so they are validated here before they are
+judged.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def parse_event(line: bytes | str) -> Event:
     """
     try:
         fields = json.loads(line, object_hook=_message_or_dict)
-    except (RecursionError, OverflowError) as error:  # brackets by the thousand, a number that no field holds
+    except (RecursionError, OverflowError) as error:  # thousands of brackets, or a number that is too large
         raise ValueError(f"this is no event: {error}") from error
     if not isinstance(fields, dict) or "t" not in fields:
         raise ValueError(f"an event is an object with a time t, not {line[:200]!r}")
@@ -46,7 +46,7 @@ def _adapter(kind: str) -> TypeAdapter[Event]:
 
 
 def _message_or_dict(value: dict[str, Any]) -> Any:
-    """Return a ROS message where it is written as one."""
+    """Return the ROS message that a JSON object encodes, or the object itself if it encodes none."""
     if value.keys() != {"ros_type", "ros_fields"}:
         return value
     try:

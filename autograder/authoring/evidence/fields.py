@@ -13,17 +13,19 @@ import numpy as np
 from autograder.authoring.failure import expect
 from ros_runtime.messages import is_message
 
-ROUNDING = 1e-5  # of a number that went through a float32
+ROUNDING = 1e-5  # relative and absolute, of a number that was stored as float32
 MAX_CHARACTERS = 200  # characters of a text that are shown
 
 
 def expect_field(
     message: Any, path: str, value: Any, *, because: str, help: str, at: float | None = None, see: str = ""
 ) -> None:
-    """Require a value of a message's field: `path` is its name, such as "battery.percentage"; NaN equals NaN.
+    """Require that a field of a message has a value; NaN equals NaN.
+
+    `path` is the field's name, such as "battery.percentage".
 
     Raises:
-        Failure: it has another value, which is what was observed.
+        Failure: it has another value, which is reported as observed.
     """
     observed = reduce(getattr, path.split("."), message)
     expect(

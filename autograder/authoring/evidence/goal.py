@@ -9,7 +9,7 @@ from typing import Any
 from action_msgs.srv import CancelGoal
 
 from autograder.authoring.diagnosis.goal_diagnosis import (
-    BLIND,
+    STARVED_LESSON,
     lesson_on_the_end,
     went_on,
     why_it_ended_so,
@@ -28,16 +28,16 @@ from ros_runtime.message_constants import GoalStatus, name_of
 SUCCEEDED, CANCELED, ABORTED = GoalStatus.SUCCEEDED, GoalStatus.CANCELED, GoalStatus.ABORTED
 
 _BUSY = (
-    "The executor was busy: on one thread a callback that sleeps or waits keeps goals and cancels from being served. "
-    "Use MultiThreadedExecutor, or an async execute callback that awaits."
+    "The executor was busy: with one thread, a callback that sleeps or waits blocks the callbacks for goals and "
+    "cancels. Use MultiThreadedExecutor, or an async execute callback that awaits."
 )
 _ACCEPT = (
     "goal_callback must return GoalResponse.ACCEPT for a goal that can be carried out (True is not "
     "GoalResponse.ACCEPT)."
 )
 _SLEEPS = (
-    "While execute sleeps on the only thread, nobody serves the cancel request{in_time}: use MultiThreadedExecutor, or "
-    "an async execute callback that awaits instead of time.sleep."
+    "While execute sleeps on the only thread, the cancel request is not answered{in_time}: use MultiThreadedExecutor, "
+    "or an async execute callback that awaits instead of time.sleep."
 )
 _REFUSES = (
     "rclpy refuses every cancel by default: give ActionServer a cancel_callback that returns "
@@ -54,7 +54,7 @@ class Cancel:
     run: RobotRecord = field(repr=False)
 
     def require_agreed(self, goal: Goal) -> None:
-        """Require that the server agreed to cancel the goal."""
+        """Require that the server accepted the request to cancel the goal."""
         if self.answer is None:
             require_alive(self.run)
             raise Failure(
@@ -75,7 +75,7 @@ class Cancel:
             )
         has_ended = self.answer.return_code == CancelGoal.Response.ERROR_GOAL_TERMINATED
         raise Failure(
-            expected="the server to agree to cancel",
+            expected="the server to accept the cancel request",
             observed="it answered only when the goal had ended (return code 3)"
             if has_ended
             else "it refused (no goal in goals_canceling)",
@@ -86,7 +86,7 @@ class Cancel:
 
 @dataclass(frozen=True)
 class Goal:
-    """One goal. Requirements on its answer or result fail with a reason if there is none."""
+    """One goal. If there is no answer or result, requirements on it fail with the reason."""
 
     name: str
     sent: ev.GoalSent
@@ -114,13 +114,13 @@ class Goal:
             raise Missing(
                 self.run,
                 expected=f"a server that gets as far as the request to cancel the goal “{self.name}”",
-                never=f"nobody asked to cancel the goal “{self.name}”",
+                never=f"a cancel of the goal “{self.name}” was never requested",
             )
         return self.cancels
 
     @property
     def accepted_at(self) -> float:
-        """When (s) the client knew that it was accepted, which is required."""
+        """When (s) the client received the acceptance; requires that the goal was accepted."""
         self.require_accepted()
         assert self.answer
         return self.answer.t
@@ -133,7 +133,7 @@ class Goal:
             raise Failure(
                 expected="the goal to be accepted",
                 observed=self._no_answer(),
-                help=f"It stood in {place}. {_BUSY}" if place else _BUSY,
+                help=f"It was blocked in {place}. {_BUSY}" if place else _BUSY,
                 at=self.sent.t,
             )
         expect(
@@ -164,7 +164,7 @@ class Goal:
 
         Args:
             status: the final status.
-            help: what to do if the goal went on, or succeeded, instead of ending so.
+            help: what to do if the goal went on, or succeeded, instead of ending with this status.
         """
         if self.result is None:
             require_alive(self.run)
@@ -174,7 +174,7 @@ class Goal:
                 observed=observed,
                 help=help if help and went_on(self) and not why_starved(self) else advice,
                 at=self.run.end,
-                see=BLIND if why_starved(self) else "",
+                see=STARVED_LESSON if why_starved(self) else "",
             )
         ended = self.result.status
         expect(
@@ -188,15 +188,15 @@ class Goal:
         return self.result
 
     def require_canceled(self, request: Cancel | None = None) -> None:
-        """Require that it was accepted, that its (last) cancel request was granted, and that it ended CANCELED."""
+        """Require that it was accepted, that its (last) cancel request was accepted, and that it ended CANCELED."""
         self.require_accepted()
-        request = request or self.requests_to_cancel[-1]  # earlier ones may have overtaken their goal
+        request = request or self.requests_to_cancel[-1]  # earlier ones may have arrived before the goal
         request.require_agreed(self)
         self.require_result(CANCELED)
 
     def require_reason(self) -> None:
         """Require that its result has an error_msg that is not empty; the result must have come."""
-        assert self.result, "ask for its result first"
+        assert self.result, "call require_result first"
         expect(
             bool(self.result.result.error_msg.strip()),
             expected="error_msg to say why the goal was ABORTED",
@@ -207,7 +207,7 @@ class Goal:
 
     def expect(self, path: str, value: Any, *, because: str, help: str, see: str = "") -> None:
         """Require that a field of its result, which must be there, has a value."""
-        assert self.result, "ask for its result first"
+        assert self.result, "call require_result first"
         expect_field(self.result.result, path, value, because=because, help=help, at=self.result.t, see=see)
 
     def _no_answer(self) -> str:

@@ -14,8 +14,8 @@ E = TypeVar("E")
 A = TypeVar("A", ev.GoalAnswered, ev.ResultReceived, ev.CancelAnswered, ev.ServiceAnswered)
 R = TypeVar("R", bound="Record")
 POSTURES = (ev.BodyDescribed, ev.PostureTruth)
-# What rclpy says beside a program's last words: of a task that it throws away at the end, and in its log.
-_ASIDE = re.compile(r"The following exception was never retrieved|\[(DEBUG|INFO|WARN|ERROR|FATAL)\] \[")
+# Lines of rclpy that do not explain an exit: on a task that it discards at the end, and log messages.
+_OF_RCLPY = re.compile(r"The following exception was never retrieved|\[(DEBUG|INFO|WARN|ERROR|FATAL)\] \[")
 
 
 @dataclass(frozen=True)
@@ -25,11 +25,10 @@ class Record:
     Attributes:
         scenario: its name.
         params: the scenario's inputs.
-        events: all events but the robot's samples.
+        events: all events except the robot's samples.
         ground_truth: the simulator's state of the robot, at 50 Hz.
         scale: how much faster than real time the arena's clock ran.
-        postures: of the whole robot, if a recording was asked for; they are kept apart, so that no verdict can depend
-            on whether it was.
+        postures: of the whole robot, if a recording was requested; kept apart, so that no verdict depends on them.
     """
 
     scenario: str
@@ -81,11 +80,11 @@ class Record:
     # -- answers ------------------------------------------------------------------------------------------------------
 
     def given_up(self, what: str, name: str) -> ev.Unanswered | None:
-        """Return when the scenario stopped waiting for the answer to a call, goal, cancel or result, if it did."""
+        """Return the event of giving up the wait for the answer to a call, goal, cancel or result, if there is one."""
         return next((each for each in self.all(ev.Unanswered) if (each.what, each.id) == (what, name)), None)
 
     def in_time(self, kind: type[A], key: str, value: str, *, of: str) -> A | None:
-        """Return the answer to something, unless the scenario had stopped waiting for it."""
+        """Return the first answer whose field `key` has a value, unless the scenario had stopped waiting for it."""
         given_up = self.given_up(of, value)
         answer = self.one(kind, key, value)
         return None if answer is None or (given_up and answer.t > given_up.t) else answer
@@ -103,9 +102,9 @@ class Record:
 
     @property
     def last_words(self) -> str:
-        """The last line on stderr that is not blank nor rclpy's aside, cut to a readable length."""
+        """The last line on stderr that is neither blank nor from rclpy, cut to a readable length."""
         lines = [line.strip() for line in self.output("stderr").splitlines() if line.strip()]
-        said = [line for line in lines if not _ASIDE.match(line)] or lines
+        said = [line for line in lines if not _OF_RCLPY.match(line)] or lines
         return said[-1][:300] if said else ""
 
     @property

@@ -1,4 +1,4 @@
-"""What a server that answers from a topic of the robot can know at a request: its last message there, or none."""
+"""Which message of a robot's topic a server can have received last when it answers a request."""
 
 from __future__ import annotations
 
@@ -11,16 +11,17 @@ from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.call import Call
 from autograder.authoring.evidence.robot_record import RobotRecord
 
-# s a message may be on its way: 0.2 s of real time at scale 5, 0.1 s at scale 10. Scenarios wait a little longer.
+# s on the arena's clock that the delivery of a message may take: 0.2 s of real time at scale 5, 0.1 s at scale 10.
+# Scenarios wait a little longer.
 DELIVERY = 1.0
-LATEST = 0.3  # s that a message may come after its period, on a busy machine
+PERIOD_SLACK = 0.3  # s by which a period may be longer on a busy machine
 
 
 @dataclass(frozen=True)
 class Sensor:
-    """A topic that the robot publishes in a fixed `period` (s), as `kind` records it, unless `switch` has stopped it.
+    """A topic that the robot publishes every `period` s; `kind` is the event that records a message.
 
-    `switch` is the scenario's command with an argument `connected`.
+    The scenario's command `switch`, with an argument `connected`, stops and resumes it.
     """
 
     kind: type[ev.Event]
@@ -33,14 +34,14 @@ JOINTS = Sensor(ev.JointsPublished, 0.05, "joint_sensors")
 
 
 def known_messages(call: Call, sensor: Sensor) -> list[Any] | None:
-    """Return what may be the last message at a server that answered `call`, oldest first.
+    """Return the messages of which any can be the last one received by a server that answered `call`, oldest first.
 
-    It begins with the last message that had certainly arrived at the request, and ends with the last one before the
-    answer: those in between may have been on their way.
+    The first of them had certainly arrived when the request was sent. The others were published before the answer, and
+    may or may not have arrived by then.
 
     Returns:
-        The events; an empty list if certainly none had arrived; None if nobody can tell: what the robot published
-        before the node was ready reaches it only if robot and node latch it.
+        The events; an empty list if certainly none had arrived; None if that is unknown: a message from before the node
+        was ready arrives only if both publisher and subscription are transient local.
 
     Raises:
         CannotBeJudged: the record lacks messages.
@@ -60,13 +61,13 @@ def known_messages(call: Call, sensor: Sensor) -> list[Any] | None:
     known = published[arrived[-1] :]
     times = [*(message.t for message in known), call.sent.t]
     for earlier, later in pairwise(times):
-        if _connected_for(call.run, sensor, earlier, later) > sensor.period + LATEST:
+        if _connected_for(call.run, sensor, earlier, later) > sensor.period + PERIOD_SLACK:
             raise unseen(call.run, f"the robot published nothing from {earlier:.1f} to {later:.1f} s")
     return known
 
 
 def _connected_for(run: RobotRecord, sensor: Sensor, start: float, end: float) -> float:
-    """Return for how long (s) the sensor was connected up to `end`, at most since `start`."""
+    """Return for how long (s) the sensor had been connected at `end`, counted from `start` at the earliest."""
     for event in reversed(run.commands(sensor.switch)):
         if start < event.t < end:
             return end - event.t if event.command["connected"] else 0.0

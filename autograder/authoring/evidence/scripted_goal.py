@@ -1,4 +1,4 @@
-"""A goal, and a request to cancel it, as a scripted action got them from the student's client."""
+"""A goal, and a request to cancel it, as a scripted action received them from the student's client."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from autograder.authoring.evidence.record import Record
 
 @dataclass(frozen=True)
 class ScriptedCancel:
-    """A request to cancel one goal, or every goal, and the reply it got (None: none)."""
+    """A request to cancel one goal, or every goal, and the reply (None: there was none)."""
 
     received: ev.CancelReceived
     reply: ev.CancelReplySent | None
@@ -20,10 +20,10 @@ class ScriptedCancel:
 
 @dataclass(frozen=True)
 class ScriptedGoal:
-    """One goal of the student's client, with what the scripted action sent for it and was asked about it.
+    """One goal of the student's client, with all that the scripted action sent and received for it.
 
     Attributes:
-        received: the goal as it came.
+        received: the goal request.
         reply: whether it was accepted; None: it was never answered.
         feedback: what was published for it, also before the reply.
         cancels: the requests to cancel it or every goal, from its arrival on.
@@ -57,7 +57,7 @@ class ScriptedGoal:
 
 
 def scripted_goal(run: Record, received: ev.GoalReceived) -> ScriptedGoal:
-    """Return a goal that a scripted action got, with all that the record has of it."""
+    """Return a goal that a scripted action received, with all events of it in the record."""
     name = received.goal
     return ScriptedGoal(
         received,

@@ -1,7 +1,7 @@
 """What a check judges: the record of an arena, with its calls, goals and requests by name.
 
-If something that a check asks for is missing, that is a failure with a reason (`Missing`). If the arena did not do its
-part, there is no grade (`CannotBeJudged`).
+Looking up something that is missing raises `Missing`, a failure with its reason, or, if the arena did not do its part,
+`CannotBeJudged`.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from autograder.authoring.evidence.scripted_goal import ScriptedGoal, scripted_g
 
 
 class Transcript(RobotRecord):
-    """The record of an arena, asked for what its client did and what came back."""
+    """The record of an arena, with methods that look up calls, goals, requests and messages."""
 
     def mark(self, name: str) -> float:
-        """Return the time (s) of a moment that the scenario named."""
+        """Return the time (s) at which the scenario set a mark."""
         if mark := self.one(ev.Mark, "name", name):
             return mark.t
-        raise Missing(self, expected=f"a scenario that gets to “{name}”", never="it never got there")
+        raise Missing(self, expected=f"a scenario that reaches “{name}”", never="it never reached it")
 
     # -- actions ------------------------------------------------------------------------------------------------------
 
@@ -99,7 +99,7 @@ class Transcript(RobotRecord):
     # -- topics -------------------------------------------------------------------------------------------------------
 
     def received(self, topic: str) -> list[ev.MessageReceived]:
-        """Return what the student's node published on a topic that the scenario listens to, in order."""
+        """Return what the student's node published on a topic that the scenario subscribes to, in order."""
         return [event for event in self.all(ev.MessageReceived) if event.topic == topic]
 
     def published(self, topic: str) -> list[ev.MessagePublished]:

@@ -1,1 +1,1 @@
-"""What any server and any client must do."""
+"""Requirements on every server and every client."""

@@ -1,4 +1,4 @@
-"""Requirements on the feedback of a goal: that there is any, its rate and its gaps."""
+"""Requirements on the feedback of a goal: its existence, its rate and its gaps."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from autograder.authoring.diagnosis.missing import Missing, ordinal
 from autograder.authoring.evidence.goal import Goal
 from autograder.authoring.failure import expect
 
-MIN_RATE, MAX_RATE = 3.0, 10.0  # Hz; 5 are asked for
+MIN_RATE, MAX_RATE = 3.0, 10.0  # Hz; the task asks for 5
 RATE_SLACK = 0.5  # Hz of measuring error over a short walk
 MAX_GAP = 1.0  # s
-ARRIVING = 0.5  # s more that the last message may be older than the result
+END_SLACK = 0.5  # s by which the gap before the result may be longer
 
 
 def require_feedback(goal: Goal) -> None:
@@ -58,18 +58,18 @@ def require_good_feedback_rate(
         at=times[0],
     )
     _require_no_gap([start, *times], MAX_GAP)
-    _require_no_gap([times[-1], end_of_feedback(goal)], MAX_GAP + ARRIVING)
+    _require_no_gap([times[-1], end_of_feedback(goal)], MAX_GAP + END_SLACK)
 
 
 def end_of_feedback(goal: Goal) -> float:
-    """Return when (s) feedback, of which there must be some, may end: at the result, or with the last message."""
+    """Require feedback, and return when (s) it may end: at the result, or, if none was awaited, at its last message."""
     require_feedback(goal)
     if goal.result:
         return goal.result.t
     if goal.run.given_up("result", goal.name):
         return goal.feedback[-1].t
     raise Missing(
-        goal.run, expected=f"feedback until the goal “{goal.name}” ends", never="nobody waited for its end"
+        goal.run, expected=f"feedback until the goal “{goal.name}” ends", never="its end was never awaited"
     )
 
 
@@ -79,6 +79,6 @@ def _require_no_gap(times: Sequence[float], longest: float) -> None:
         gap <= longest,
         expected=f"no gap over {MAX_GAP:.0f} s in the feedback",
         observed=f"a gap of {gap:.1f} s",
-        help="Something in the loop waits: publish feedback also while the robot turns, slows down or settles.",
+        help="The loop waits somewhere: publish feedback also while the robot turns, slows down or settles.",
         at=at,
     )

@@ -1,4 +1,4 @@
-"""Checks that fit every server: one line each in an exercise's checks.
+"""Checks for every server. Each takes one line in an exercise's checks.
 
 server_appears = standard.server_appears("get_battery_status", points=1, on=INTERRUPT)
 ends_cleanly = standard.ends_cleanly(points=1, on=INTERRUPT, needs=server_appears)
@@ -42,7 +42,7 @@ def server_appears(
     see: str = "02_services#first-file",
     clauses: Sequence[int] = (),
 ) -> Check:
-    """Make the check that the node offers `what`; choose the shortest scenario, as this verdict comes first."""
+    """Make the check that the node offers `what`; use the shortest scenario, because its verdict comes first."""
     title = f"The node offers {what}"
     return check_by(require_ready, title, points=points, on=on, see=see, clauses=clauses)
 
@@ -68,14 +68,15 @@ def exits_with_status_0(run: Transcript) -> str:
     require_within_limits(run)
     signalled = run.first(ev.NodeSignalled)
     if signalled is None:
-        raise unseen(run, "nobody pressed Ctrl-C")
+        raise unseen(run, "Ctrl-C was never pressed")
     exited = run.first(ev.NodeExited)
     if exited is None:
         place = where_it_waited(run, in_main=True)
         raise Failure(
             expected="the program to end after SIGINT (Ctrl-C)",
-            observed=f"it still ran {run.end - signalled.t:.1f} s later",
-            help=(f"It stood in {place}: let Ctrl-C end that. " if place else _STILL_RUNS) + _CLEAN_END,
+            observed=f"it was still running {run.end - signalled.t:.1f} s later",
+            help=(f"It was blocked in {place}: let Ctrl-C end that call. " if place else _STILL_RUNS)
+            + _CLEAN_END,
             at=signalled.t,
         )
     if exited.t < signalled.t:

@@ -1,4 +1,4 @@
-"""Obligations that fit every service: one line each in an exercise's model.
+"""Obligations for every service. Each takes one line in an exercise's model.
 
 answers_in_time = answered_within(2.0, "get_battery_status", clause=4)
 never_waits = answers_from_memory("get_battery_status", lambda call: "known" if … else "unknown", clause=4)
@@ -13,18 +13,19 @@ from autograder.authoring.evidence.call import Call
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.obligation import Obligation, calls, obligation, whole_run
 
-# s: an answer from memory takes some ms of real time, which the arena's clock makes 10 times as many; of several
-# answers the fastest shows whether a callback waits, for a busy machine does not delay them all.
+# s on the arena's clock, which runs up to 10 times faster than real time. An answer from memory takes a few ms of real
+# time. Only the fastest of several answers is judged, because a busy machine does not delay all of them.
 FROM_MEMORY_TIME = 0.6
-TOGETHER = 0.5  # s between requests that come at once
-ENOUGH_ANSWERS = 3  # of which the fastest is looked at
+TOGETHER_TIME = 0.5  # s; requests at a shorter distance count as sent together
+MIN_ANSWERS = 3  # of which the fastest is judged
 FROM_MEMORY = "Answer from memory: the callback must not sleep or wait for the next message."
 
 
 def one_or_several(call: Call) -> str:
-    """Return whether a request came alone, or several to its service at once."""
+    """Return whether a request was sent alone, or together with others to the same service."""
     sent = [each.t for each in call.run.all(ev.ServiceCalled) if each.service == call.service]
-    return "one at a time" if sum(abs(t - call.sent.t) < TOGETHER for t in sent) == 1 else "several together"
+    together = sum(abs(t - call.sent.t) < TOGETHER_TIME for t in sent)
+    return "one at a time" if together == 1 else "several together"
 
 
 def answered_within(timeout: float, service: str, *, clause: int, help: str = FROM_MEMORY) -> Obligation:
@@ -55,18 +56,18 @@ def require_fastest(answers: Sequence[Call], limit: float, *, expected: str, hel
 
 
 def enough_answers(answers: Sequence[Call], situation: Callable[[Call], str | None]) -> dict[str, list[Call]]:
-    """Return the answers by situation (None: any other), where there are so many that their fastest tells something."""
+    """Return the answers of each situation that has enough of them to judge the fastest."""
     found: dict[str, list[Call]] = {}
     for call in answers:
         if name := situation(call):
             found.setdefault(name, []).append(call)
-    return {name: each for name, each in found.items() if len(each) >= ENOUGH_ANSWERS}
+    return {name: each for name, each in found.items() if len(each) >= MIN_ANSWERS}
 
 
 def answers_from_memory(
     service: str, situation: Callable[[Call], str], *, clause: int, help: str = FROM_MEMORY
 ) -> Obligation:
-    """Make the obligation that the callback never waits, in any `situation` that a run has enough requests in."""
+    """Make the obligation that the callback never waits, in each `situation` with enough requests."""
 
     def never_waits(run: Transcript) -> str | None:
         judged = enough_answers(calls(service)(run), situation)

@@ -1,1 +1,1 @@
-"""Judges a walk to a pose: where the robot arrived, whether it stopped, and whether feedback and result are true."""
+"""Judges walks to a pose: where the robot arrived, whether it stopped, and whether feedback and result are true."""

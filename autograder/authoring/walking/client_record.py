@@ -1,4 +1,4 @@
-"""Whether the record holds what the script of a client's scenario says: what is missing there is no evidence."""
+"""Requires that the record contains all that the script of a client's scenario says: else it is no evidence."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ EVENT_DELAY = 1.0  # s that an event may come after its time
 
 
 def require_record(run: Transcript, action: str) -> None:
-    """Require that the record holds what the server (`params["server"]`) and the person (the steps) did."""
+    """Require that the record contains what the server (`params["server"]`) and the user (the steps) did."""
     script = run.params.get("server")
     offered = any(event.action == action for event in run.all(ev.ActionOffered))
     if offered != (script is not None):
@@ -42,7 +42,7 @@ def _lacking(run: Transcript, goal: ScriptedGoal, script: Mapping[str, Any]) -> 
             yield "the answer to the goal", goal.received.t + script.get("after", 0.0)
         return
     if goal.reply.accepted != accepted:
-        yield "the answer that the script says", -inf
+        yield "the answer that the script requires", -inf
     if not goal.is_accepted:
         return
     ends_after = script.get("ends_after", 0.0)
@@ -85,7 +85,7 @@ def _lacking_replies(goal: ScriptedGoal, script: Mapping[str, Any]) -> Iterator[
 
 
 def _require_acts(run: Transcript) -> None:
-    """Require that all was typed and pressed that the steps say, up to the program's end."""
+    """Require that the record contains all lines and Ctrl-C of the steps that were done before the program's end."""
     exited = run.first(ev.NodeExited)
     over = exited.t if exited else run.end
     done = {mark.name for mark in run.all(ev.Mark) if mark.t < over}

@@ -1,6 +1,6 @@
-"""Scenarios for clients of `walk_to`, as data: a server's script, and what a person does; fixed ones and drawn ones.
+"""Scenarios for clients of `walk_to`, fixed and drawn ones, as data: a script for the server, and steps of the user.
 
-A script holds what `autograder/arena/scripted_walk.py` says. All times are s on the arena's clock.
+`autograder/arena/scripted_walk.py` defines the scripts. All times are s on the arena's clock.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from autograder.authoring.checks import Scenario, program
 
 ARGUMENTS = ("1.025", "0.475", "0.335")  # x m, y m, yaw rad
 SUCCEEDED, CANCELED, ABORTED = range(4, 7)  # of action_msgs/GoalStatus
-LONGEST_GAP = 4.5  # s between two signs of life: 5 are silence
+LONGEST_GAP = 4.5  # s between two messages of the server: 5 s are a silence
 LONGEST_WALK = 12.0  # s of feedback
-OTHER_LINES = ("", "w", "quit", "stop", "please q", "qq")
+OTHER_LINES = ("", "w", "quit", "stop", "please q", "qq")  # that must not cancel
 
 Script = dict[str, Any]
 Steps = list[list[Any]]
 
 
 def walk(server: Script | None, *steps: list[Any], arguments: Sequence[str] = ARGUMENTS) -> Scenario:
-    """Return a scenario with this server (None: nobody), and what a person does."""
+    """Return a scenario with this server (None: there is none) and these steps of the user."""
     return program("in_order", {"arguments": list(arguments), "server": server, "steps": list(steps)})
 
 
@@ -37,14 +37,14 @@ ON_THE_WAY: Script = {"distances": way(5), "ends_after": 1.0}
 
 
 def typed(*lines: str, after: float = 0.6, apart: float = 0.5) -> Steps:
-    """Return the steps of a person who types lines while the robot walks."""
+    """Return the steps of a user who types lines while the robot walks."""
     steps: Steps = [["await_answer"], ["wait", after]]
     for line in lines:
         steps += [["type", line], ["wait", apart]]
     return steps
 
 
-# -- what every such client meets --------------------------------------------------------------------------------------
+# -- fixed ------------------------------------------------------------------------------------------------------------
 
 GOOD = walk({"distances": [1.12, 0.93, 0.71, 0.5, 0.28, 0.07], "ends_after": 1.4})
 WRONG_ARGUMENTS = (["1.0"], ["one", "0.5"], ["1.0", "0.5", "0.3", "0.2"])
@@ -54,13 +54,13 @@ WRONG_ARGUMENTS = (["1.0"], ["one", "0.5"], ["1.0", "0.5", "0.3", "0.2"])
 
 
 def any_pose(random: Random, arguments: int = 3) -> list[str]:
-    """Return arguments with negative numbers, and a turn of more than half of one."""
+    """Return arguments with negative numbers, and a yaw beyond half a turn."""
     x, y, yaw = random.uniform(-2.0, -0.3), random.uniform(-2.0, -0.3), random.uniform(-6.0, -3.3)
     return [f"{value:.3f}" for value in (x, y, yaw)[:arguments]]
 
 
 def any_walk(random: Random, arguments: int = 3) -> Script:
-    """Return a pose, feedback that falls but for a detour, and an end beside the pose."""
+    """Return a walk whose distances fall, except for a detour, and which ends beside the pose."""
     pose = any_pose(random, arguments)
     distances = sorted((round(random.uniform(0.05, 2.5), 2) for _ in range(8)), reverse=True)
     distances[4] = round(distances[3] + random.uniform(0.1, 0.5), 2)
@@ -70,7 +70,7 @@ def any_walk(random: Random, arguments: int = 3) -> Script:
 
 
 def slow_walk(random: Random) -> Script:
-    """Return a walk of a minute that stands still on the way; the server comes late, and its answer takes long."""
+    """Return a walk of a minute in which the distance never changes; the server starts late and answers late."""
     gaps = [round(random.uniform(4.0, LONGEST_GAP), 2) for _ in range(15)]
     distance = round(random.uniform(0.1, 20.0), 2)
     server = {
@@ -84,7 +84,7 @@ def slow_walk(random: Random) -> Script:
 
 
 def silence_on_the_way(random: Random, *, types: bool = False) -> Script:
-    """Return a server that falls silent or dies, after a q if one `types`, and answers no cancel."""
+    """Return a server that stops sending or dies, after a q if the user `types`, and never answers a cancel."""
     server: Script = {
         "distances": way(random.randrange(6)),
         "ends_after": random.choice([None, 1.2]),
@@ -99,14 +99,14 @@ def silence_on_the_way(random: Random, *, types: bool = False) -> Script:
 
 
 def ctrl_c(random: Random, server: Script, *lines: str) -> Script:
-    """Return Ctrl-C on the way, after these lines."""
+    """Return a walk with Ctrl-C on the way, after these typed lines."""
     wait = round(random.uniform(0.5, 1.2), 2)
     steps = [*(typed(*lines) if lines else [["await_answer"]]), ["wait", wait], ["press_ctrl_c"]]
     return {"arguments": any_pose(random), "server": {"distances": way(60), **server}, "steps": steps}
 
 
 def any_course(random: Random, *, types: bool = False) -> Script:
-    """Return whatever may befall a client: any answer, feedback, end, silence, Ctrl-C, and, if one `types`, lines."""
+    """Return a walk with any answer, feedback, end, silence or Ctrl-C, and with typed lines if the user `types`."""
     course = random.choice(["ends", "ends", "silence", "rejects", "ctrl-c"])
     if course == "silence":
         return silence_on_the_way(random, types=types)
@@ -128,7 +128,7 @@ def any_course(random: Random, *, types: bool = False) -> Script:
 
 
 def _any_way(random: Random) -> Script:
-    """Return feedback of any distances and gaps, none of it a silence, and an end."""
+    """Return feedback with any distances, with gaps too short for a silence, and an end."""
     gaps = [round(random.uniform(0.1, LONGEST_GAP), 2) for _ in range(random.randrange(7))]
     gaps = gaps[: sum(t < LONGEST_WALK for t in accumulate(gaps))]
     distances = [round(random.uniform(0.0, 12.0), 2) for _ in gaps]
@@ -142,14 +142,14 @@ def _any_way(random: Random) -> Script:
 def _any_end(random: Random, at_least: float) -> Script:
     status = random.choice([SUCCEEDED, CANCELED, ABORTED])
     reasons = ("the robot fell at x 0.42 m", "the way is blocked: 3 obstacles", "no way", "")
-    code = random.choice([0, 1, 2])  # the status decides, whatever it is
+    code = random.choice([0, 1, 2])  # whatever it is, the status decides
     kept = {"kept_for": 1.0} if random.random() < 0.5 else {}
     end = {"ends_after": round(at_least, 2), "status": status, "error_code": code}
     return {**end, "error_msg": random.choice(reasons), "final": [-0.42, 1.37, 0.2], **kept}
 
 
 def _any_cancel(random: Random, ends_after: float) -> Script:
-    """Return how a cancel is treated; a goal that is CANCELED ends no sooner than `ends_after` (s)."""
+    """Return a script for a cancel; a goal that is CANCELED ends no sooner than `ends_after` (s)."""
     code = random.choice([0, 1])  # ERROR_NONE, ERROR_REJECTED
     return random.choice(
         [

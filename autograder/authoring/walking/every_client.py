@@ -1,4 +1,4 @@
-"""The checks that every client of `walk_to` gets, each for the clauses and the points of its exercise."""
+"""The checks for every client of `walk_to`; an exercise gives each its clauses and its points."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CHECKS = {
     ),
     "tells_an_abort": (
         walk({**ON_THE_WAY, "status": ABORTED, "error_code": 1, "error_msg": "the robot fell at x 0.42 m"}),
-        "An aborted goal ends it with status 3, and error_msg stands on stderr",
+        "After an aborted goal it ends with status 3, and prints error_msg on stderr",
         "06_walk_to_a_pose#hopeful-why",
     ),
     "ctrl_c_cancels_the_goal": (

@@ -1,4 +1,4 @@
-"""The life of a goal that walks the robot: when it was certainly active, and what else happened in it."""
+"""When a goal that walks the robot was certainly active, and what else happened meanwhile."""
 
 from __future__ import annotations
 
@@ -15,12 +15,13 @@ from humanoid_interfaces.msg import RobotState
 from ros_runtime.message_constants import GoalStatus, name_of
 
 TERMINAL = (GoalStatus.SUCCEEDED, GoalStatus.CANCELED, GoalStatus.ABORTED)
-AT_IT = 0.1  # m; a robot that is no farther from its goal need not walk
+AT_GOAL_DISTANCE = 0.1  # m; a robot that is no farther from its goal need not walk
 BIG_TURN = 0.3  # rad
-FASTEST = 0.4  # m/s that the robot can walk
-AT_LEAST = 0.5  # s of watching that prove that the robot stands
-NEAR = 0.15  # m more than the tolerance, and…
-TURNED = 0.3  # rad from the goal are "just before arrival"
+MAX_WALKING_SPEED = 0.4  # m/s
+MIN_STANDING_TIME = 0.5  # s; a robot that was observed for less may still be moving
+# A robot is "just before arrival" if its distance and its turn to the goal are within both limits:
+NEAR_DISTANCE = 0.15  # m, in addition to the tolerance
+NEAR_TURN = 0.3  # rad
 
 
 def run_of(goal: Goal) -> Transcript:
@@ -29,7 +30,7 @@ def run_of(goal: Goal) -> Transcript:
 
 
 def accepted(goal: Goal) -> bool:
-    """Return whether the server accepted it; what came for it shows whether the record lacks its answer."""
+    """Return whether the server accepted it; raise if later events show that the record lacks its answer."""
     has_begun = goal.result or goal.feedback or goal.statuses
     if goal.answer is None and has_begun and goal.run.given_up("goal", goal.name) is None:
         raise unseen(goal.run, f"the record lacks the answer to the goal “{goal.name}”")
@@ -50,9 +51,9 @@ def others(goal: Goal) -> list[Goal]:
 
 
 def overlaps(goal: Goal, asked: Goal) -> bool | None:
-    """Return whether a goal was active all the while another was asked for and answered; None: nobody can tell.
+    """Return whether a goal was active from the time `asked` was sent until it was answered; None: that is unknown.
 
-    One that is ABORTED then has not run out by itself: it was active, and gave way.
+    A goal that was ABORTED in that time counts as active: it gave way.
     """
     answered = asked.answer.t if asked.answer else run_of(goal).end
     if not accepted(goal) or goal.sent.t > answered or ended_at(goal) + DELIVERY / 2 < asked.sent.t:
@@ -65,12 +66,12 @@ def overlaps(goal: Goal, asked: Goal) -> bool | None:
 
 
 def successors(goal: Goal) -> list[Goal]:
-    """Return the goals that were sent and accepted while this one was active, the first of them first."""
+    """Return the goals that were sent and accepted while this one was active, in order."""
     return [other for other in rivals(goal) if goal.accepted_at < other.sent.t < ended_at(goal)]
 
 
 def together_with(goal: Goal) -> list[Goal]:
-    """Return the accepted goals that were sent before this one was answered, or the other way round."""
+    """Return the accepted goals whose time from request to answer overlaps with that of this goal."""
     return [
         other
         for other in rivals(goal)
@@ -86,7 +87,7 @@ def rivals(goal: Goal) -> list[Goal]:
 
 
 def requests_to_cancel(goal: Goal) -> list[Cancel]:
-    """Return the requests to cancel it: its own, and those of every goal that came before the next one was sent."""
+    """Return the requests to cancel it, and those to cancel all goals that were sent before the next goal."""
     end = next_sent(goal, goal.sent.t)
     return [
         cancel
@@ -103,18 +104,18 @@ def cancels_on_the_way(goal: Goal) -> list[Cancel]:
 
 
 def granted(goal: Goal) -> list[Cancel]:
-    """Return the requests to cancel it that the server agreed to."""
+    """Return the requests to cancel it that the server accepted."""
     return [each for each in run_of(goal).cancels if each.answer and goal.name in each.answer.canceling]
 
 
 def near_arrival(goal: Goal, t: float) -> bool:
     """Return whether the robot was so near its goal at a time (s) that it may arrive at any moment."""
     distance, turn = error(goal.run.robot_at(t), goal)
-    return distance <= tolerance(goal) + NEAR and turn <= TURNED
+    return distance <= tolerance(goal) + NEAR_DISTANCE and turn <= NEAR_TURN
 
 
-def went_down(goal: Goal) -> ev.RobotTruth | None:
-    """Return the robot when it lost its power or had fallen while the goal was active."""
+def fell_or_lost_power(goal: Goal) -> ev.RobotTruth | None:
+    """Return the first sample, while the goal was active, in which the robot has fallen or has no power, or None."""
     if not accepted(goal) or not run_of(goal).ground_truth:
         return None
     start = goal.accepted_at
@@ -129,13 +130,13 @@ def interrupted(goal: Goal) -> bool:
 
 
 def is_undisturbed(goal: Goal) -> bool:
-    """Return whether nothing happened in its life but its walk: no cancel that was granted, no goal, fall or Ctrl-C."""
+    """Return whether nothing happened during its walk: no accepted cancel, no other goal, fall or Ctrl-C."""
     return accepted(goal) and not was_disturbed(goal) and not together_with(goal)
 
 
 def was_disturbed(goal: Goal) -> bool:
-    """Return whether a cancel that was granted, a goal that came later, a fall or Ctrl-C ended it."""
-    return bool(granted(goal) or successors(goal) or went_down(goal) or interrupted(goal))
+    """Return whether an accepted cancel, a later goal, a fall or Ctrl-C came while it was active."""
+    return bool(granted(goal) or successors(goal) or fell_or_lost_power(goal) or interrupted(goal))
 
 
 def next_sent(goal: Goal, after: float) -> float:
@@ -161,11 +162,11 @@ def phase(goal: Goal) -> str:
     return f"after {name_of(GoalStatus, last.status or GoalStatus.UNKNOWN)}"
 
 
-def left_alone(goal: Goal) -> bool:
+def was_not_awaited(goal: Goal) -> bool:
     """Return whether the scenario ended before the goal did, and had not waited for its end."""
     return goal.result is None and goal.run.given_up("result", goal.name) is None
 
 
-def way_to(goal: Goal) -> float:
-    """Return how far (m) the goal was when it was sent."""
+def initial_distance(goal: Goal) -> float:
+    """Return how far (m) the robot was from the goal when the goal was sent."""
     return error(goal.run.robot_at(goal.sent.t), goal)[0]

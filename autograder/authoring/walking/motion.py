@@ -15,12 +15,12 @@ from autograder.authoring.walking.truth import require_accepted
 from ros_runtime.angles import wrap
 
 SPEED_SLACK = 1.1  # times the limit
-TURN_SLACK = 1.0  # rad that the robot may turn more than it has to
-MOVED = 0.1  # m
+TURN_SLACK = 1.0  # rad by which the robot may turn more than necessary
+MOVED_DISTANCE = 0.1  # m
 
 
 def require_reached(goal: Goal) -> ev.RobotTruth:
-    """Return the robot when it was at the goal for the first time, which it must have been, whatever came then."""
+    """Require that the robot was at the goal at some time, and return its first sample there."""
     robots = _on_its_way(goal)
     for robot in robots:
         distance, turn = error(robot, goal)
@@ -36,30 +36,30 @@ def require_reached(goal: Goal) -> ev.RobotTruth:
 
 
 def _advice_on_the_way(goal: Goal, nearest: float) -> str:
-    """Say why the robot did not get there, by how far it went."""
+    """Return why the robot did not get there, by how far it went."""
     if reason := why_rclpy_aborted(goal) or why_starved(goal):
         return reason
     start = goal.run.robot_at(goal.sent.t)
     distance, _ = error(start, goal)
     if nearest <= POSITION_TOLERANCE:
         return "It came near enough, but never with the right heading: command angular.z, with wrap(goal's yaw - yaw)."
-    if max(math.hypot(robot.x - start.x, robot.y - start.y) for robot in _on_its_way(goal)) < MOVED:
+    if max(math.hypot(robot.x - start.x, robot.y - start.y) for robot in _on_its_way(goal)) < MOVED_DISTANCE:
         return (
             "It stayed where it was. Publish a Twist on cmd_vel in every round of the loop: the robot stops by itself "
             "0.5 s after the last one."
         )
     if nearest > 0.8 * distance:
         return (
-            "It walked, but not toward the goal: cmd_vel is in base_link's axes, so turn the difference in x and y by "
-            "minus the heading."
+            "It walked, but not toward the goal: cmd_vel is in base_link's axes, so rotate the difference in x and y "
+            "by minus the heading."
         )
-    return "It walked toward the goal and stopped too early: go on until odom says that less than 0.10 m are left."
+    return "It walked toward the goal and stopped too early: go on until odom shows that less than 0.10 m are left."
 
 
 def require_limited_velocity(goal: Goal) -> None:
-    """Require that from its sending to the first arrival the robot was no faster than max_velocity, on average.
+    """Require that from the goal's sending to the first arrival the robot's mean speed was at most max_velocity.
 
-    What is measured is the straight way, so that neither a turn on the spot nor the sway of the pelvis counts.
+    The straight distance is used, so that neither a turn on the spot nor the sway of the pelvis counts.
     """
     limit = goal.request.max_velocity
     start = goal.run.robot_at(require_accepted(goal).sent.t)

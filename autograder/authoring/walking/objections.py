@@ -1,4 +1,4 @@
-"""What speaks against a goal that walks the robot: what its request holds, and how robot and server are just then."""
+"""Objections, the reasons to reject a goal that walks the robot: a wrong request, or the state of robot or server."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from autograder.authoring.walking.life import others, overlaps, phase, run_of
 from autograder.authoring.walking.planar import numbers_of, stamped_target, target
 from autograder.authoring.walking.truth import require_accepted
 
-UNIT = 0.01  # by which the length of a quaternion that was rounded may differ from 1
+UNIT_SLACK = 0.01  # by which the length of a rounded quaternion may differ from 1
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,8 @@ class Objection:
     """A reason to reject a goal.
 
     Attributes:
-        because: of a goal, why, in words; "": it is not so; None: nobody can tell, or the statement leaves it open.
+        because: returns the reason for a goal, in words; "": it does not apply; None: unknown, or left open by the
+            statement.
         help: what to do if it was accepted.
     """
 
@@ -35,18 +36,18 @@ class Objection:
 
 
 def objection(help: str) -> Callable[[Callable[[Goal], str | None]], Objection]:
-    """Make an objection of a function that says why: `frames`, whose docstring is the sentence of `rejects_frames`."""
+    """Make an objection of the decorated function: the docstring of `frames` is the sentence of `rejects_frames`."""
     return lambda because: Objection(because, help)
 
 
 def accepting(*objections: Objection) -> Callable[[Goal], str | None]:
-    """Make what an obligation requires: a goal that nothing speaks against is accepted."""
+    """Return the requirement, for an obligation, that a goal without objections is accepted."""
 
     def accepts_what_can_be_walked_to(goal: Goal) -> str | None:
-        """It accepts a pose in frame odom when nothing speaks against it, whatever came before."""
+        """It accepts a pose in frame odom that it has no reason to reject, whatever came before."""
         if any(objection.because(goal) != "" for objection in objections):
             return None
-        _require_heard(run_of(goal))
+        _require_subscriptions(run_of(goal))
         require_accepted(goal)
         return phase(goal)
 
@@ -54,7 +55,7 @@ def accepting(*objections: Objection) -> Callable[[Goal], str | None]:
 
 
 def rejects(clause: int, objection: Objection, *, sentence: str = "", see: str = "") -> Obligation:
-    """Make the obligation that a goal with this objection is rejected; `sentence` replaces its usual sentence."""
+    """Make the obligation that a goal with this objection is rejected; `sentence` replaces its default sentence."""
 
     def require(goal: Goal) -> str | None:
         because = objection.because(goal)
@@ -100,7 +101,7 @@ def no_rotation(goal: Goal) -> str | None:
     length = math.hypot(turned.x, turned.y, turned.z, turned.w)
     if length == 0.0:
         return "x, y, z and w are all 0, which is no rotation"
-    return "" if abs(length - 1.0) <= UNIT or not isfinite(length) else None
+    return "" if abs(length - 1.0) <= UNIT_SLACK or not isfinite(length) else None
 
 
 @objection("Accept max_velocity only if math.isfinite(v) and v >= 0.0: NaN < 0.0 is false, too.")
@@ -114,13 +115,14 @@ UNSAID_VELOCITY = Objection(lambda goal: None if velocities.because(goal) else "
 UNSAID_ROTATION = Objection(lambda goal: None if no_rotation.because(goal) else "")
 
 
-# -- how robot and server are -----------------------------------------------------------------------------------------
+# -- the state of robot and server ------------------------------------------------------------------------------------
 
 
 def _last_known(goal: Goal, topic: str) -> list[Any] | None:
-    """Return what may be the last message of a played robot's topic, oldest first; None if the robot is no played one.
+    """Return what the node may have received last on a topic of a scripted robot, oldest first.
 
-    A message may have been on its way. The list is empty when certainly none had come.
+    The list begins with None if perhaps no message had arrived, and is empty if certainly none had. Without a scripted
+    robot the result is None.
     """
     published = run_of(goal).all(ev.MessagePublished)
     if not published:
@@ -141,7 +143,7 @@ def before_odom(goal: Goal) -> str | None:
     """It rejects goals before the first odom, and accepts them after it."""
     known = _last_known(goal, "odom")
     if known == []:
-        return "no odom has come, so nobody knows where the robot is"
+        return "no odom has arrived, so the robot's pose is unknown"
     return None if known and None in known else ""
 
 
@@ -164,7 +166,7 @@ def while_busy(goal: Goal) -> str | None:
     """It rejects a goal while another runs."""
     active = [overlaps(other, goal) for other in others(goal)]
     if True in active:
-        return "another goal is under way, and the robot has one pair of legs"
+        return "another goal is active, and the robot has only one pair of legs"
     return None if None in active else ""
 
 
@@ -182,22 +184,22 @@ def one_of_several(goal: Goal) -> str | None:
         taken == 1,
         expected="one of the goals that came together to be accepted, and the others rejected",
         observed=f"{taken} of {len(rivals) + 1} were accepted",
-        help="Say in goal_callback itself that the robot is taken, at the moment you accept: a flag that execute sets "
-        "comes too late for the next goal."
+        help="Set the flag that the robot is busy in goal_callback, when you accept: a flag that execute sets is too "
+        "late for the next goal."
         if taken
-        else "Nothing else was under way: reject a goal only when another one was accepted before.",
+        else "No other goal was active: reject a goal only when another one was accepted before.",
         at=goal.sent.t,
     )
     return f"{len(rivals) + 1} together"
 
 
-def _require_heard(run: Transcript) -> None:
-    """Require that the node subscribes to what the scenario publishes in the robot's place."""
+def _require_subscriptions(run: Transcript) -> None:
+    """Require that the node subscribes to the topics that the scenario publishes in place of the robot."""
     for topic, last in {each.topic: each for each in run.all(ev.MessagePublished)}.items():
         expect(
             last.subscriptions > 0,
             expected=f"a subscription to {topic}",
-            observed="the grader published it, and nobody was subscribed",
+            observed="the grader published it, but no subscription matched",
             help=f'create_subscription(…, "{topic}", …), a relative name.',
             at=last.t,
         )

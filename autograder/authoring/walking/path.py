@@ -9,7 +9,7 @@ from statistics import fmean
 
 from autograder.authoring.evidence.robot_record import RobotRecord
 
-STRIDE = 1.0  # s, two steps: the pelvis sways to the left and to the right once in them
+STRIDE = 1.0  # s, two steps: the pelvis sways once to each side
 SPACING = 0.1  # s between the points of the path
 
 Point = tuple[float, float]  # m, m in odom
@@ -18,9 +18,9 @@ Point = tuple[float, float]  # m, m in odom
 def length_walked(run: RobotRecord, start: float, end: float, spacing: float = SPACING) -> float:
     """Return how far (m) the robot walked between two moments (s).
 
-    Each point of the path is the mean of the pelvis's positions over a stride around it, so the sway cancels out and
-    what remains is where the body as a whole went. What is left of it adds up where the robot goes slowly: with points
-    a stride apart (`spacing`, s) that is nothing.
+    Each point of the path is the mean of the pelvis's positions over one stride, so that the sway cancels out. A small
+    rest of the sway remains, and adds up when the robot walks slowly; points that are a stride apart (`spacing`, s)
+    avoid that.
     """
     times = [start + spacing * k for k in range(int((end - start) / spacing) + 1)]
     return length([_middle(run, t) for t in dict.fromkeys([*times, end])])
@@ -32,7 +32,7 @@ def length(points: Sequence[Point]) -> float:
 
 
 def walking_speed(run: RobotRecord, t: float) -> float:
-    """Return how fast (m/s) the body as a whole went at a moment (s), in a stride around it."""
+    """Return the speed (m/s) of the body at a time (s), as a mean over the stride around it."""
     return math.dist(_middle(run, t - STRIDE / 2), _middle(run, t + STRIDE / 2)) / STRIDE
 
 

@@ -20,10 +20,10 @@ REPORT_SLACK = 0.08  # m or rad, in addition to the motion while the message was
 REPORT_AGE = 0.6  # s that a reported pose may be old: odom's period, the feedback's period, delivery
 FINAL_AGE = 0.5  # s that final_pose may be older than the end of a goal for which the robot stops
 FINAL_SLACK = 0.015  # m by which final_pose may be off: odom's period, and rounding to centimetres
-TRUTH_LATE = 0.5  # s that the simulator's word may come after a report that is made of it
+TRUTH_DELAY = 0.5  # s by which the ground truth may come after a report of it
 HEIGHT_SLACK = 0.1  # m, more than the pelvis bobs while a message is made and delivered
 UNIT_SLACK = 0.02  # by which the length of a reported quaternion may differ from 1
-TAKING_OVER = 2.0  # s in which a goal that preempts another may begin
+TAKEOVER_TIME = 2.0  # s in which a goal that preempts another may begin
 
 
 def require_true_feedback(goal: Goal) -> None:
@@ -43,7 +43,7 @@ def require_true_feedback(goal: Goal) -> None:
         _require_true_steps(goal, message.steps_taken, "feedback.steps_taken", feedback.t, now)
         expect(
             message.steps_taken >= steps,
-            expected="steps_taken never to go back",
+            expected="steps_taken never to decrease",
             observed=f"{message.steps_taken} after {steps}",
             help="Publish feedback from one place, in order.",
             at=feedback.t,
@@ -68,9 +68,9 @@ def _require_true_place(goal: Goal, feedback: ev.FeedbackReceived, recent: Seque
 
 
 def require_true_result(goal: Goal) -> None:
-    """Require that final_pose was measured when the goal ended, not copied from the request, and so were the steps."""
+    """Require that final_pose and total_steps were measured when the goal ended, and not copied from the request."""
     end = goal.result
-    assert end, "ask for its result first"
+    assert end, "call require_result first"
     age = DELIVERY if goal.status == ABORTED else end.t - ended_at(goal) + FINAL_AGE
     stamped, recent = end.result.final_pose, _recent(goal, end.t, age)
     _require_true_steps(goal, end.result.total_steps, "result.total_steps", end.t, recent)
@@ -88,7 +88,7 @@ def require_true_result(goal: Goal) -> None:
 
 def require_error_code(goal: Goal, name: str, *, because: str, help: str = "") -> None:
     """Require that the result names the reason; `help` is what to do if it names another one."""
-    assert goal.result, "ask for its result first"
+    assert goal.result, "call require_result first"
     result = type(goal.result.result)
     constant = f"{result.__name__.replace('_', '.')}.{name}"  # such as WalkTo.Result.FELL
     if not help or goal.result.result.error_code == 0:
@@ -106,9 +106,9 @@ def require_true_pose(
     slack: float = REPORT_SLACK,
     turn_slack: float = 2 * REPORT_SLACK,
 ) -> None:
-    """Require that a reported pose is where the simulated robot was within the last moments, in frame odom.
+    """Require that a reported pose, in frame odom, is that of one of the simulator's `recent` samples.
 
-    It may be `slack` (m) and `turn_slack` (rad) off.
+    It may be off by `slack` (m) and `turn_slack` (rad).
     """
     position, frame = stamped.pose.position, stamped.header.frame_id.lstrip("/")
     expect(
@@ -154,11 +154,11 @@ def require_true_pose(
 
 
 def _require_true_steps(goal: Goal, claimed: int, what: str, at: float, now: Sequence[ev.RobotTruth]) -> None:
-    """Require the steps since the goal began: what robot_state said a moment ago, less what it said then."""
+    """Require the steps since the goal began: robot_state.steps of a moment ago minus those at the beginning."""
     before = goal.run.robot_at(goal.sent.t)
     # A robot that stands takes no step until the goal moves it; one that walks may take some before the goal begins.
     was_walking = before.mode == RobotState.WALKING
-    latest = goal.run.robot_at(goal.accepted_at + TAKING_OVER) if was_walking else before
+    latest = goal.run.robot_at(goal.accepted_at + TAKEOVER_TIME) if was_walking else before
     earliest = goal.run.robot_at(goal.sent.t - DELIVERY)
     least, most = max(0, now[0].steps - latest.steps), now[-1].steps - earliest.steps
     since_reset = claimed == now[-1].steps and before.steps > 0
@@ -172,5 +172,5 @@ def _require_true_steps(goal: Goal, claimed: int, what: str, at: float, now: Seq
 
 
 def _recent(goal: Goal, t: float, age: float = REPORT_AGE) -> Sequence[ev.RobotTruth]:
-    """Return the robot at what may be the time of a report that came at `t` s: at most `age` s before."""
-    return goal.run.robot_between(t - age, min(t + TRUTH_LATE, goal.run.ground_truth[-1].t))
+    """Return the samples that a report at time `t` (s) may be based on: at most `age` s old."""
+    return goal.run.robot_between(t - age, min(t + TRUTH_DELAY, goal.run.ground_truth[-1].t))

@@ -1,4 +1,4 @@
-"""What the servers of walk_to have in common: scenarios, and checks that differ in clauses, needs and lessons alone."""
+"""Scenarios and checks that the servers of walk_to share; the checks differ only in clauses, needs and lessons."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from autograder.authoring.checks import RESTING, Check, Scenario
 from autograder.authoring.obligation import check_of
 from autograder.authoring.sequence import NOT_FINITE
 
-in_order = partial(checks.in_order, robot=())  # the robot stands
+in_order = partial(checks.in_order, robot=())  # with a robot that can walk
 
 WRONG_POSES: list[list[Any]] = [
     ["ask", "wrong frame", "header.frame_id", "map"],
@@ -26,7 +26,7 @@ OTHER_NAMESPACE = in_order(["go", "walk", 0.3, 0.0, 0.0], ["arrive", "walk"], na
 
 
 def impossible(random: Random, *more: tuple[str, Any]) -> list[list[Any]]:
-    """Return steps that send goals each of which is wrong in one field, in any order; `more` are fields and values."""
+    """Return steps that send goals in random order, each with one wrong field; `more` are further fields and values."""
     wrong: list[tuple[str, Any]] = [
         ("header.frame_id", random.choice(("base_link", "world", "odometry", "", "odom_combined"))),
         *((f"pose.position.{axis}", random.choice(NOT_FINITE)) for axis in "xyz"),
@@ -40,8 +40,8 @@ def impossible(random: Random, *more: tuple[str, Any]) -> list[list[Any]]:
 def two_walks(first: float = 0.0, second: float = 0.0) -> Scenario:
     """Return the scenario of two walks with these limits (m/s).
 
-    The second goal lies ahead of a robot that has turned and has taken steps before; there is so little to turn that a
-    speed shows. Its heading lies beyond pi, so its quaternion has a negative w.
+    The second goal lies ahead of the robot, which has turned and taken steps before. The turn to it is so small that
+    the speed can be measured. Its heading lies beyond pi, so its quaternion has a negative w.
     """
     walks = [["go", "walk", 0.55, 0.2, 2.8, first], ["go", "again", 0.15, 0.34, 3.3, second]]
     return in_order(*(step for go in walks for step in (go, ["arrive", go[1]], ["wait", 1.5])))
@@ -61,7 +61,7 @@ def reports(
 ) -> tuple[Check, Check, Check, Check]:
     """Return the checks fills_the_result, feedback_keeps_its_rate, feedback_is_true and feedback_ends_with_the_goal.
 
-    `on` has two goals; without `under_way` there is no feedback to be judged, without `arrives` no result.
+    `on` has two goals. The checks of feedback need `under_way`, the check of the result needs `arrives`.
     """
     of_both = partial(check_of, on=on)
     result = of_both(
@@ -72,7 +72,7 @@ def reports(
     rate = of_both(model.feedback_at_5_hz, needs=under_way)
     truth = of_both(
         [model.feedback_is_true, model.estimates_the_time],
-        title="Pose, distance and steps in the feedback are the robot's, and the estimate of the time left is one",
+        title="Pose, distance and steps in the feedback are the robot's, and the time left is a plausible estimate",
         needs=rate,
     )
     end = of_both(model.feedback_ends_with_the_goal, needs=[arrives, rate])

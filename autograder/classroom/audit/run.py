@@ -157,24 +157,26 @@ def audit_one(
     repetition: int = 0,
     seed: int = 0,
     scale: float | None = None,
-    at_first_look: Collection[str] = (),
+    checks_without_retry: Collection[str] = (),
     arenas: SubmissionArenas | None = None,
     stop: Stop | None = None,
 ) -> AuditedRun:
     """Grade one submission, one arena at a time.
 
-    `at_first_look`: the checks that need not fail twice. `arenas`: those of `SharedArenas`; None: its own.
+    `checks_without_retry`: the checks that need not fail twice. `arenas`: those of `SharedArenas`; None: its own.
     `stop`: ends them at once when it is set.
     """
     started = time.monotonic()
-    options = GradingOptions(seed + repetition, 1, scale, at_first_look=at_first_look, shortens=False)
+    options = GradingOptions(
+        seed + repetition, 1, scale, checks_without_retry=checks_without_retry, shortens=False
+    )
     result = grade(known.read(), exercise, options, arenas=arenas, stop=stop)
     return AuditedRun(known, repetition, result, time.monotonic() - started, for_any_fault(exercise))
 
 
 def for_any_fault(exercise: Exercise) -> frozenset[str]:
     """Return the ids of the checks that any faulty submission may fail."""
-    return frozenset(check.id for check in exercise.checks if check.meets_any_fault)
+    return frozenset(check.id for check in exercise.checks if check.can_catch_any_fault)
 
 
 def checks_without_a_killer(runs: Sequence[AuditedRun], exercise: Exercise) -> list[str]:

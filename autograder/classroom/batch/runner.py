@@ -18,7 +18,7 @@ from autograder.classroom.batch.seeds import ONE_FOR_ALL, Seeds
 from autograder.classroom.batch.version import checks_version
 from autograder.classroom.batch.worker_pool import RetryLater, WorkerPool, Workers, threads
 from autograder.classroom.pages.drawings import Drawings
-from autograder.engine.essay import left_to_a_person, load_essay
+from autograder.engine.essay import load_essay, unmarked_grade
 from autograder.engine.exercise import FOLDER_VARIABLE, Exercise, essay_names, load_exercise
 from autograder.engine.stop import Stop
 from autograder.engine.submission import UnusableSubmission
@@ -143,7 +143,7 @@ class BatchRunner:
             submission, problem = None, str(error)
         sources = submission.sources if submission else None
         if work.exercise in essay_names():  # a person marks every essay, also one that cannot be read
-            waiting = left_to_a_person(load_essay(work.exercise), work.student)
+            waiting = unmarked_grade(load_essay(work.exercise), work.student)
             return Graded(work, waiting, sources, problem, effort=without_arena())
         exercise, seed = self.exercise(work.exercise), self.seeds.of(work.student, sources or {})
         if submission is None:

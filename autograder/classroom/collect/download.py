@@ -17,7 +17,7 @@ from datetime import datetime
 from pathlib import Path, PurePosixPath
 from typing import BinaryIO
 
-from autograder.engine.hand_in import NOT_THEIRS
+from autograder.engine.hand_in import TOOL_FOLDERS
 from autograder.engine.submission import CLEAR_OUTPUTS, MAX_NOTEBOOK_BYTES, UnusableSubmission
 from ros_runtime.course_error import CourseError
 
@@ -184,4 +184,4 @@ def _plain_opener(path: Path) -> Callable[[], BinaryIO]:
 
 
 def _is_junk(path: PurePosixPath) -> bool:
-    return not path.parts or any(part in NOT_THEIRS or _HIDDEN.fullmatch(part) for part in path.parts)
+    return not path.parts or any(part in TOOL_FOLDERS or _HIDDEN.fullmatch(part) for part in path.parts)

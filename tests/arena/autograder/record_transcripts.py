@@ -19,7 +19,7 @@ from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.audit.known_submission import KnownSubmission, known_submission
 from autograder.engine.arena_run import ArenaRun, run_in_arena
 from autograder.engine.exercise import Exercise, exercise_names, load_exercise
-from autograder.engine.simulation_lag import STRAINED, lateness
+from autograder.engine.simulation_lag import RETRY_LAG, lateness
 from autograder.engine.submission_arenas import SubmissionArenas
 from ros_runtime.project import PROJECT
 
@@ -138,7 +138,7 @@ def _carry_out(run: ArenaRun, arenas: SubmissionArenas) -> Transcript:
     """Run a scenario until nothing was late in it, more slowly each time the machine was too busy."""
     for scale in (5.0, 5.0, 5.0, 2.0, 2.0, 1.0):
         transcript = run_in_arena(replace(run, scale=scale), arenas=arenas)
-        if not run.scenario.timed or lateness(transcript) <= STRAINED:
+        if not run.scenario.timed or lateness(transcript) <= RETRY_LAG:
             return transcript
     raise SystemExit(f"the machine is too busy to record {run.scenario.name}")
 

@@ -48,7 +48,7 @@ def audited(request):
             return audit_one(
                 known,
                 exercise,
-                at_first_look=[*known.caught_by, *known.also_fails],
+                checks_without_retry=[*known.caught_by, *known.also_fails],
                 arenas=arenas,
             )
 

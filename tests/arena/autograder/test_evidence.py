@@ -306,7 +306,7 @@ SAID = {
         "battery_service",
         "waits_for_the_first_message",
         "says_when_it_knows_nothing",
-    ): "It stood in line 27 of battery_service.py, in on_request().",
+    ): "It was blocked in line 27 of battery_service.py, in on_request().",
     ("battery_service", "no_test_for_none", "says_when_it_knows_nothing"): "It was raised in line 23 of "
     "battery_service.py, in on_request().",
     (

@@ -13,7 +13,7 @@ from nbgrader.api import Gradebook
 from autograder.classroom.nbgrader_bridge.class_export import ClassExport
 from autograder.classroom.nbgrader_bridge.course_folder import call, open_course
 from autograder.classroom.nbgrader_bridge.gradebook import CourseGradebook, Entry
-from autograder.engine.essay import left_to_a_person, load_essay
+from autograder.engine.essay import load_essay, unmarked_grade
 
 NAME = "arm_architecture"
 ESSAY = load_essay(NAME)
@@ -22,7 +22,7 @@ FULL_MARKS = {criterion.id: float(criterion.points) for criterion in ESSAY.crite
 
 
 def essay_of(student, sources=WORK, problem=""):
-    return Entry(left_to_a_person(ESSAY, student), sources, problem)
+    return Entry(unmarked_grade(ESSAY, student), sources, problem)
 
 
 def database(course):

@@ -18,7 +18,7 @@ def test_the_starter_gets_some_points_and_fails_some_check(name):
     exercise = load_exercise(name, hidden=False)
     # One arena at a time runs no scenario whose checks turn out to need one that failed.
     every = [check.id for check in exercise.checks]
-    result = grade(starter, exercise, GradingOptions(jobs=1, at_first_look=every))
+    result = grade(starter, exercise, GradingOptions(jobs=1, checks_without_retry=every))
     assert result.status == "graded"
     assert result.score < result.max_score
     assert (result.score == 0) == (name == QUIZ)

@@ -169,7 +169,7 @@ def test_without_isolation_a_check_says_so_and_is_made(repository, monkeypatch):
     (repository / "counting.py").write_text(PROGRAM)
     said = run("check", "counting", "--course", repository / "tasks", cwd=repository)
     assert "No isolation: COURSE_ISOLATION=none asks for no isolation" in said
-    assert "All visible checks are made" in said
+    assert "All visible checks are run" in said
 
 
 def test_its_archive_has_the_visible_checks_alone(repository):
@@ -187,7 +187,7 @@ def test_its_archive_has_the_visible_checks_alone(repository):
 @pytest.mark.parametrize(
     ("file", "text", "said"),
     [
-        ("scenarios.py", "from .judging import x\n" + SCENARIOS, "the arena sees this file alone"),
+        ("scenarios.py", "from .judging import x\n" + SCENARIOS, "the arena can read only this file of it"),
         ("scenarios.py", "def another(stage): ...\n", "'count', which"),
         (
             "hidden.py",

@@ -13,7 +13,7 @@ import pytest
 from playwright.sync_api import Page, sync_playwright
 
 from autograder.classroom.nbgrader_bridge.gradebook import CourseGradebook, Entry
-from autograder.engine.essay import left_to_a_person, load_essay
+from autograder.engine.essay import load_essay, unmarked_grade
 from chromium import CHROMIUM, OFFLINE, needs_chromium
 
 TIMEOUT = 90.0  # s, for each thing a busy machine has to do
@@ -21,7 +21,7 @@ SOLUTIONS = Path(__file__).resolve().parents[3] / "solutions"
 NAME = "arm_architecture"
 ESSAY = load_essay(NAME)
 ENTRY = Entry(
-    left_to_a_person(ESSAY, "anna"), {f"{NAME}.txt": (SOLUTIONS / NAME / "marked/weak.txt").read_text()}
+    unmarked_grade(ESSAY, "anna"), {f"{NAME}.txt": (SOLUTIONS / NAME / "marked/weak.txt").read_text()}
 )
 POINTS = {"graph": "0", "pattern": "1", "type": "0", "qos": "0", "rate": "1.5", "failure": "0", "safety": "0"}
 

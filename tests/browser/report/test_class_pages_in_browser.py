@@ -66,7 +66,7 @@ def page(folder: Path) -> Iterator[Page]:
 
 def test_the_keyboard_leads_from_the_class_to_what_happened(page: Page) -> None:
     page.keyboard.press("Tab")
-    assert page.locator(":focus").inner_text() == "to the content"
+    assert page.locator(":focus").inner_text() == "Skip to the content"
     page.get_by_role("region", name="Less than 60 %").get_by_role("link", name="It walks").first.focus()
     page.keyboard.press("Enter")
     page.wait_for_url("**/instructor/**#walks")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from autograder.arena.student_limits_monitor import FastestGrowth, LostTime
+from autograder.arena.student_limits_monitor import FastestGrowth, MissedTime
 
 
 def fastest(looks, stretch):
@@ -35,7 +35,7 @@ def test_nothing_is_known_at_the_first_look():
 
 
 def lost(*looks):
-    time = LostTime()
+    time = MissedTime()
     for look in looks:
         time.look(*look)
     return time.total

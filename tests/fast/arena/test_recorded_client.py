@@ -18,7 +18,7 @@ from std_srvs.srv import SetBool, Trigger
 from unique_identifier_msgs.msg import UUID
 
 from autograder.arena import events as ev
-from autograder.arena.arena_log import MOST_OF, MOST_OF_NOBODYS, ArenaLog
+from autograder.arena.arena_log import MOST_OF, MOST_UNMATCHED, ArenaLog
 from autograder.arena.bounded_reading import LARGEST, BoundedReading, size_of
 from autograder.arena.scripted_service import Reply, ScriptedService
 from humanoid_interfaces.action import WalkTo
@@ -161,7 +161,7 @@ def test_the_size_of_a_message_is_seen_without_unpacking_it(fields: dict[str, An
 
 def test_feedback_for_nobodys_goals_takes_no_room_from_that_of_real_ones(log: ArenaLog) -> None:
     walking = Walking(log)
-    for _ in range(MOST_OF_NOBODYS + 600):
+    for _ in range(MOST_UNMATCHED + 600):
         walking.on_feedback(walking.feedback(goal_id=NOBODYS))
     walking.on_feedback(walking.feedback())
     assert log.count(ev.FeedbackReceived, goal="walk") == len(walking.goal.feedback) == 1
@@ -207,13 +207,13 @@ def test_a_status_is_recorded_when_it_changes(log: ArenaLog) -> None:
 
 def test_of_endless_unknown_goals_not_every_status_is_remembered(log: ArenaLog) -> None:
     walking = Walking(log)
-    for start in range(0, MOST_OF_NOBODYS + 500, 500):
+    for start in range(0, MOST_UNMATCHED + 500, 500):
         walking.on_status(
             walking.statuses(*(number.to_bytes(16, "little") for number in range(start + 1, start + 501)))
         )
     walking.on_status(walking.statuses())
     seen = log.all(ev.StatusSeen)
-    assert len(seen) == MOST_OF_NOBODYS + 1
+    assert len(seen) == MOST_UNMATCHED + 1
     assert seen[-1].goal == "walk"
     assert dropped(log) == [(ev.StatusSeen.kind, 500)]
 

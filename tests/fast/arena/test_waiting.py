@@ -11,7 +11,7 @@ import pytest
 pytest.importorskip("rclpy")
 
 from autograder.arena import offering as offering_module
-from autograder.arena.offering import FLOODED, QUIET, Offering
+from autograder.arena.offering import FLOOD_TIMEOUT, QUIET_TIME, Offering
 
 
 class Kept:
@@ -74,7 +74,7 @@ def test_the_end_of_a_flood_is_waited_for() -> None:
 def test_a_flood_without_end_is_recorded() -> None:
     steps = close(chain(range(0, 10**6, 500), repeat(0)))
     assert steps[-3:] == ["drop unread", "inspect", "finish"]
-    assert len(steps) < FLOODED / QUIET + 6
+    assert len(steps) < FLOOD_TIMEOUT / QUIET_TIME + 6
 
 
 @pytest.mark.usefixtures("clock")

@@ -46,7 +46,7 @@ def test_a_run_of_which_everything_was_read_is_bounded() -> None:
 def test_dropped_feedback_is_the_students_failure_with_all_numbers() -> None:
     dropped = ev.RecordDropped(t=9.0, what=ev.FeedbackReceived.kind, count=600, seconds=4.2)
     failure = failure_of(bounded, run_with(*feedback("walk", 50), dropped))
-    assert failure.observed == "it sent 650 feedback messages in 4.2 s; 50 of them are read"
+    assert failure.observed == "it sent 650 feedback messages in 4.2 s; only 50 were read"
     assert failure.at == 9.0
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from autograder.authoring.checks import MAY_REST, Scenario
 from autograder.engine import clock_scale
-from autograder.engine.clock_scale import FAST, USUAL, ClockScale
+from autograder.engine.clock_scale import FAST_SCALE, USUAL, ClockScale
 
 WALK = Scenario("walk")
 LIGHT = (Scenario("ask", robot=(MAY_REST,)), Scenario("good", robot=None, student="program"))
@@ -28,7 +28,7 @@ def test_a_robot_that_has_to_move_goes_at_the_usual_scale(load):
 
 @pytest.mark.parametrize("scenario", LIGHT, ids=["a robot that rests", "no robot"])
 def test_without_a_robot_to_move_an_idle_machine_goes_faster_and_a_busy_one_does_not(load, scenario):
-    assert ClockScale().first_scale(scenario) == FAST
+    assert ClockScale().first_scale(scenario) == FAST_SCALE
     load(4.0)
     assert ClockScale().first_scale(scenario) == USUAL
 
@@ -41,7 +41,13 @@ def test_after_an_arena_was_late_the_others_go_at_the_usual_scale(load):
 
 @pytest.mark.parametrize(
     ("first", "was_strained", "second"),
-    [(FAST, False, USUAL), (FAST, True, USUAL), (USUAL, False, USUAL), (USUAL, True, 2.0), (2.0, True, 1.0)],
+    [
+        (FAST_SCALE, False, USUAL),
+        (FAST_SCALE, True, USUAL),
+        (USUAL, False, USUAL),
+        (USUAL, True, 2.0),
+        (2.0, True, 1.0),
+    ],
 )
 def test_no_point_is_lost_at_a_fast_scale(load, first, was_strained, second):
     assert ClockScale().retry_scale(first, was_strained) == second
@@ -58,4 +64,4 @@ def test_where_no_process_can_follow_a_clock_all_run_at_the_walls(load, monkeypa
 
 
 def test_an_arena_that_is_late_is_tried_at_every_slower_scale(load):
-    assert ClockScale().attempts(FAST) == (10.0, 5.0, 2.0, 1.0, 1.0)
+    assert ClockScale().attempts(FAST_SCALE) == (10.0, 5.0, 2.0, 1.0, 1.0)

@@ -16,7 +16,7 @@ from autograder.classroom.batch.cache import GradeCache
 from autograder.classroom.batch.collection import collect
 from autograder.classroom.batch.runner import BatchRunner, BatchWatcher
 from autograder.classroom.nbgrader_bridge.generated_cells import with_criterion_cells
-from autograder.engine.essay import left_to_a_person, load_essay
+from autograder.engine.essay import load_essay, unmarked_grade
 from autograder.engine.exercise import (
     UnknownExercise,
     UnusableExercise,
@@ -92,7 +92,7 @@ def test_also_work_that_cannot_be_read_is_a_persons_to_judge(tmp_path: Path, tex
 
 
 def test_a_record_is_read_back_as_it_was_written() -> None:
-    grade = left_to_a_person(ESSAY, "anna")
+    grade = unmarked_grade(ESSAY, "anna")
     assert grade.to_json()["score"] is None
     assert Grade.from_json(json.loads(json.dumps(grade.to_json()))) == grade
 
@@ -103,7 +103,7 @@ def test_one_criterion_without_points_keeps_the_whole_waiting() -> None:
 
 
 def test_the_table_of_a_class_says_what_waits_and_where_points_were_lost() -> None:
-    waiting = left_to_a_person(ESSAY, "anna")
+    waiting = unmarked_grade(ESSAY, "anna")
     verdicts = [CheckVerdict("graph", "G", "marked", 2, 2), CheckVerdict("safety", "S", "marked", 1.5, 3)]
     marked = Grade(NAME, "bert", "by hand", verdicts)
     table = printed(class_table([waiting, marked]))

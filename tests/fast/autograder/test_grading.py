@@ -282,7 +282,7 @@ def test_without_isolation_a_grade_is_labelled_untrusted(monkeypatch, two_checks
 
 def test_where_no_points_can_be_lost_the_first_failure_may_count(monkeypatch, two_checks):
     ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
-    grade = graded(two_checks, jobs=1, at_first_look=["base"])
+    grade = graded(two_checks, jobs=1, checks_without_retry=["base"])
     assert statuses(grade) == {"base": "failed", "above": "not run"}
     assert [name for name, _ in ran] == ["first"]
 

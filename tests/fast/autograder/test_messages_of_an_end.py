@@ -26,8 +26,8 @@ NO_RETURN = said(
     [
         (
             NO_RETURN,
-            "Your service callback of get_status returned nothing, or something else than the response. Its last line "
-            "must be `return response`, in every branch.",
+            "Your service callback of get_status returned nothing, or something other than the response. End every "
+            "branch with `return response`.",
         ),
         (
             said(
@@ -80,7 +80,7 @@ def test_a_program_that_does_not_end_on_ctrl_c_is_told_where_it_stood() -> None:
         ev.NodeSignalled(t=8.0, signal="SIGINT"), stack('"/tmp/work/status.py", line 44 in main'), until=13.0
     )
     assert failure_of(exits_with_status_0, run).help.startswith(
-        "It stood in line 44 of status.py, in main():"
+        "It was blocked in line 44 of status.py, in main():"
     )
 
 

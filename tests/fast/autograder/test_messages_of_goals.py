@@ -42,24 +42,24 @@ NO_RESULT = given_up("result", "walk", t=12.0)
     [
         (
             [status(GoalStatus.EXECUTING), feedback(11.8)],
-            "execute is still in its loop, 0.31 m from the goal. What ends it?",
+            "execute is still in its loop, 0.31 m from the goal. Check the condition that ends the loop.",
         ),
         (
             [status(GoalStatus.EXECUTING), feedback(2.3), feedback(11.8, distance=1.9)],
-            "1.90 m from the goal. It goes away from it: cmd_vel is in base_link's axes",
+            "1.90 m from the goal. The robot moves away from the goal: cmd_vel is in base_link's axes",
         ),
         (
             [status(GoalStatus.CANCELING), feedback(11.8)],
-            "The cancel was accepted: look at goal_handle.is_cancel",
+            "The cancel was accepted: check goal_handle.is_cancel",
         ),
-        ([status(GoalStatus.ACCEPTED)], "nobody called goal_handle.execute()"),
+        ([status(GoalStatus.ACCEPTED)], "a handle_accepted_callback must call goal_handle.execute()"),
         (
             [status(GoalStatus.SUCCEEDED), stack(*SPINNING)],
-            "Nothing of your node is served any more: a spin inside",
+            "No callback of your node runs any more: a spin inside",
         ),
         (
             [status(GoalStatus.SUCCEEDED), stack('"/tmp/work/walk.py", line 9 in execute')],
-            "execute has not returned since",
+            "execute made its terminal call but has not returned",
         ),
         (
             [
@@ -67,12 +67,12 @@ NO_RESULT = given_up("result", "walk", t=12.0)
                 *(feedback(2.5 + second) for second in range(10)),
                 *(robot(float(second), x=0.1 * second) for second in range(20)),
             ],
-            "distance_remaining stayed 0.31 m in all 10 feedback messages: no message of odom is served",
+            "distance_remaining stayed 0.31 m in all 10 feedback messages: the callback of odom never runs",
         ),
         ([status(GoalStatus.SUCCEEDED)], "execute returned no result: its last line must be `return result`"),
         (
             [status(GoalStatus.EXECUTING), feedback(3.0), stack('"/tmp/work/walk.py", line 9 in execute')],
-            "something in it waits without a time limit. It stood in line 9 of walk.py, in execute().",
+            "something in it waits without a timeout. It was blocked in line 9 of walk.py, in execute().",
         ),
     ],
 )
@@ -97,13 +97,14 @@ FORBIDDEN = said(
         (RAISED, "execute raised an exception in line 97 of walk.py, in execute(): no odom."),
         (
             FORBIDDEN,
-            "execute called goal_handle.canceled() in line 97 of walk.py, in execute(), but nobody had asked",
+            "execute called goal_handle.canceled() in line 97 of walk.py, in execute(), but no cancel of this "
+            "goal was requested",
         ),
         (
             said("Goal state not set, assuming aborted. Goal ID: 1"),
             "execute returned without a terminal call",
         ),
-        ([], "execute called goal_handle.abort(): look at what led there."),
+        ([], "execute called goal_handle.abort(): check the condition before this call."),
     ],
 )
 def test_an_aborted_goal_is_told_who_aborted_it(lines: list[Any], next_step: str) -> None:
@@ -120,7 +121,7 @@ def test_a_second_goal_that_is_rejected_is_told_that_the_first_has_ended() -> No
         ev.GoalAnswered(t=6.1, goal="again", accepted=False),
     )
     failure = failure_of(walking_truth.require_accepted, run.goal("again"))
-    assert "remember that the robot is free again" in failure.help
+    assert "clear your flag that the robot is busy" in failure.help
 
 
 def test_a_check_says_itself_what_a_goal_that_went_on_has_missed() -> None:
@@ -153,8 +154,8 @@ def test_a_goal_callback_that_raises_is_told_to_reject() -> None:
     ("x", "claimed", "next_step"),
     [
         (0.05, 0.05, "The position is right, the heading is 0.50 rad off"),
-        (0.30, 0.31, "Your own feedback said that 0.31 m were left, and then came succeed()"),
-        (0.90, 0.05, "Your feedback said that 0.05 m were left: measure from odom's pose to the goal"),
+        (0.30, 0.31, "Your own feedback reported 0.31 m left, and then you called succeed()"),
+        (0.90, 0.05, "Your feedback reported 0.05 m left: measure from odom's pose to the goal"),
         (0.90, None, "Compare odom with the goal's pose"),
     ],
 )

@@ -42,7 +42,7 @@ def switch(call: str, on: bool, t: float, *, success: bool = True, message: str 
     ("events", "seen"),
     [
         ([peers(0.9, 0), topics()], "no publisher"),
-        ([peers(0.9, 0), topics("/motor_power")], "a publisher on /motor_power: remove the slash"),
+        ([peers(0.9, 0), topics("/motor_power")], "a publisher on /motor_power: remove the leading slash"),
         ([peers(0.9, 0), topics(), peers(9.0, 1)], "a publisher that appeared after the request"),
         ([peers(0.9, 1), topics("/robot/motor_power")], "no message after the request"),
         ([peers(0.9, 1), topics("/robot/motor_power"), ev.MotorPowerReceived(t=4.1, on=True)], "data: true"),
@@ -89,7 +89,7 @@ def off_from_5_to_9(t: float) -> bool:
         (
             [peers(0.9, 0, 0), topics(subscribes=("/robot_state",)), *statuses(True, True)],
             "status 1",
-            "You subscribe to /robot_state, which the robot does not publish: remove the slash",
+            "You subscribe to /robot_state, which the robot does not publish: remove the leading slash",
         ),
     ],
 )

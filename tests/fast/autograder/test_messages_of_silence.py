@@ -18,17 +18,17 @@ from autograder.authoring.requirements.client_checks import require_end
     [
         (
             ('"/tmp/work/status.py", line 29 in on_request', '"/x/rclpy/executors.py", line 9 in spin_once'),
-            "It stood in line 29 of status.py, in on_request().",
+            "It was blocked in line 29 of status.py, in on_request().",
         ),
         (
             ('"/x/rclpy/client.py", line 5 in call', '"/tmp/work/status.py", line 30 in on_request'),
-            "It stood in line 30 of status.py, in on_request(), in a call of call().",
+            "It was blocked in line 30 of status.py, in on_request(), in a call of call().",
         ),
         (
             ('"/tmp/work/status.py", line 44 in main', '"/tmp/work/status.py", line 60 in <module>'),
-            "it stood in line 44 of status.py, in main(), and not in rclpy.spin(node).",
+            "it was in line 44 of status.py, in main(), and not in rclpy.spin(node).",
         ),
-        (SPINNING, "a callback awaits what never comes"),
+        (SPINNING, "a callback awaits something that never completes"),
     ],
 )
 def test_a_server_that_gives_no_answer_is_told_where_it_stood(
@@ -62,7 +62,7 @@ def reply(number: int, t: float = 2.2) -> Any:
     [
         ([], "It hung before it sent anything: wait_for_service or wait_for_server has no timeout_sec"),
         ([request(1), reply(1), request(2, t=3.0)], "It hung after request 2 (to get_status) was sent"),
-        ([request(1), reply(1)], "It went on after the last answer, at 2.2 s: do not spin after it"),
+        ([request(1), reply(1)], "It kept running after the last answer, at 2.2 s: do not spin after it"),
     ],
 )
 def test_a_client_that_never_ends_is_told_at_which_of_three_places(events: list[Any], next_step: str) -> None:
@@ -78,8 +78,11 @@ def test_a_client_that_never_ends_is_told_at_which_of_three_places(events: list[
             ["/get_status [std_srvs/srv/Trigger]"],
             "You offer /get_status, outside the namespace: remove the slash.",
         ),
-        (["/robot/motors/get_status [std_srvs/srv/Trigger]"], "give the name 'get_status' alone"),
-        (["/robot/get_state [std_srvs/srv/Trigger]"], "You offer get_state; the task's name is get_status"),
+        (["/robot/motors/get_status [std_srvs/srv/Trigger]"], "use the name 'get_status' alone"),
+        (
+            ["/robot/get_state [std_srvs/srv/Trigger]"],
+            "You offer get_state; the task requires exactly the name get_status",
+        ),
         (
             ["/robot/get_status [std_srvs/srv/SetBool]"],
             "You offer get_status as std_srvs/srv/SetBool: give the",

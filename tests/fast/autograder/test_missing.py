@@ -81,7 +81,7 @@ def test_the_reason_is_the_first_thing_that_went_wrong(events, because):
     [
         (lambda run: run.call("first"), "the request “first” was never sent"),
         (lambda run: run.goal("walk"), "the goal “walk” was never sent"),
-        (lambda run: run.mark("fallen"), "it never got there"),
+        (lambda run: run.mark("fallen"), "it never reached it"),
     ],
 )
 def test_every_query_for_what_never_happened_is_a_failure_of_the_submission(ask, never):
@@ -92,7 +92,7 @@ def test_every_query_for_what_never_happened_is_a_failure_of_the_submission(ask,
 
 def test_a_goal_that_nobody_asked_to_cancel_is_a_failure_of_the_submission():
     sent = ev.GoalSent(t=2.0, goal="walk", action="walk_to", request=WalkTo.Goal())
-    with pytest.raises(Missing, match="nobody asked to cancel the goal “walk”"):
+    with pytest.raises(Missing, match="a cancel of the goal “walk” was never requested"):
         transcript(sent, EXITED).goal("walk").requests_to_cancel  # noqa: B018
 
 
@@ -107,7 +107,11 @@ def test_an_event_that_is_there_twice_counts_once():
 
 @pytest.mark.parametrize(
     "ask",
-    [lambda run: run.robot_at(6.0), lambda run: run.robot_between(3.0, 6.0), lambda run: run.told("push")],
+    [
+        lambda run: run.robot_at(6.0),
+        lambda run: run.robot_between(3.0, 6.0),
+        lambda run: run.last_command("push"),
+    ],
 )
 def test_what_the_arena_left_out_gives_no_grade_unless_the_submission_is_the_reason(ask):
     with pytest.raises(CannotBeJudged):
@@ -123,8 +127,8 @@ def test_the_sentence_says_what_was_unseen_and_why():
     failure = unseen(transcript(BUSY), "nobody pressed Ctrl-C")
     assert isinstance(failure, Failure)
     assert failure.observed == (
-        "nobody pressed Ctrl-C, because your program, with all it started, used more than 4.7 processor-seconds in "
-        "9.0 s: 8.0"
+        "nobody pressed Ctrl-C, because your program, with the processes that it started, used more than 4.7 "
+        "processor-seconds in 9.0 s: 8.0"
     )
 
 
@@ -136,7 +140,7 @@ def test_a_whole_record_is_no_reason_to_fail():
 
 
 def test_a_robot_whose_time_stands_still_is_not_judged():
-    with pytest.raises(CannotBeJudged, match=r"the robot's time stood still for 6\.0 s from 4\.0 s on"):
+    with pytest.raises(CannotBeJudged, match=r"the simulation stood still for 6\.0 s from 4\.0 s on"):
         require_whole(transcript(robot_until=4.0), WITH_ROBOT)
     require_whole(transcript(robot_until=4.0), WITHOUT)
 
@@ -145,8 +149,8 @@ def test_a_robot_whose_time_stands_still_is_not_judged():
     ("reason", "help"),
     [
         ("it used 900 MiB of memory; 700 MiB are allowed", "list that grows"),
-        ("it made 11,045 files; 10,000 are allowed", "files that are made in a callback"),
-        ("with it there were 80 TCP sockets; 64 are allowed", "connections that are made in a callback"),
+        ("it made 11,045 files; 10,000 are allowed", "files that are created in a callback"),
+        ("the arena had 80 TCP sockets; 64 are allowed", "connections that are created in a callback"),
     ],
 )
 def test_each_limit_has_a_remedy_of_its_own(reason, help):
@@ -174,7 +178,7 @@ def test_more_processors_may_be_busy_where_the_clock_is_fast():
     "reason", [REFUSED, BUSY, AT_ONCE, ev.ArenaOverfull(memory_mib=3100, limit_mib=1536)]
 )
 def test_a_submission_that_holds_the_robot_up_fails(reason):
-    with pytest.raises(Failure, match="time stood still"):
+    with pytest.raises(Failure, match="simulation stood still"):
         require_whole(transcript(reason, robot_until=4.0), WITH_ROBOT)
 
 
@@ -219,10 +223,10 @@ def test_a_verdict_of_each_kind():
     assert judge(check_that(lambda run: run.call("first")), [whole]).points == 2
     failed = judge(check_that(lambda run: run.call("second")), [whole])
     assert (failed.status, failed.points, failed.robot_time) == ("failed", 0, 10.0)
-    unclear = judge(check_that(lambda run: run.told("push")), [whole])
+    unclear = judge(check_that(lambda run: run.last_command("push")), [whole])
     assert (unclear.status, unclear.help) == (
         "error",
-        "Not graded: ask: the robot did not get the command push",
+        "Not graded: ask: the robot did not receive the command push",
     )
     broken = judge(check_that(lambda run: run.nonsense), [whole])
     assert broken.status == "error"
@@ -237,9 +241,9 @@ def test_what_the_submission_alone_decides_and_does_not_show_costs_it_the_points
 
     check = Check("It walks", 1, never_walks, on=(WITH_ROBOT,))
     assert judge(check, [quiet]).status == "error"
-    verdict = judge(check, [quiet], finally_=True)
+    verdict = judge(check, [quiet], is_last_attempt=True)
     assert (verdict.status, verdict.expected) == (
         "failed",
-        "an answer that shows this: the robot comes near the goal",
+        "an answer from which this can be judged: the robot comes near the goal",
     )
     assert isinstance(not_shown(transcript(RAISED, EXITED), "the robot comes near"), Failure)

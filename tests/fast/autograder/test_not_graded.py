@@ -47,7 +47,7 @@ PLACES = {
         f"{AUTHORING}/diagnosis/missing.py _exception_for",
         f"{AUTHORING}/obligation.py _require_sent",
         f"{AUTHORING}/diagnosis/readiness.py require_ready require_started",
-        f"{AUTHORING}/evidence/robot_record.py _known told",
+        f"{AUTHORING}/evidence/robot_record.py _known last_command",
         f"{AUTHORING}/evidence/robot_topic.py known_messages",
         f"{AUTHORING}/requirements/standard.py exits_with_status_0",
         f"{AUTHORING}/walking/client_record.py _require_acts require_record",
@@ -66,7 +66,7 @@ PLACES = {
     FLOODS: (f"{ENGINE}/bounds.py _require_nothing_dropped",),
     NEVER_SHOWS: (
         f"{AUTHORING}/diagnosis/missing.py not_shown",
-        f"{AUTHORING}/walking/client_life.py started",
+        f"{AUTHORING}/walking/client_run.py started",
         f"{AUTHORING}/walking/obligations/walks.py ends_with_a_zero_twist",
         f"{AUTHORING}/walking/motion.py require_limited_velocity",
         f"{AUTHORING}/walking/obligations/ends.py tells_a_fall",

@@ -46,7 +46,7 @@ def test_it_is_graded_and_says_how_much_was_taken():
     record = run_in_arena(RUN, arenas=_EndedArenas(Ended.MEMORY))
     with pytest.raises(Failure) as failure:
         require_whole(record, SCENARIO)
-    assert "filled the arena: 3100 MiB of memory at 2.0 s; 1536 MiB are there" in failure.value.observed
+    assert "at 2.0 s the whole arena held 3100 MiB; its limit is 1536 MiB" in failure.value.observed
 
 
 @pytest.mark.parametrize("ended", [Ended.DEADLINE, Ended.EXIT, Ended.KILLED])

@@ -12,7 +12,7 @@ from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
 from autograder.authoring.walking import objections
 from autograder.authoring.walking.objections import accepting, one_of_several, rejects
-from autograder.authoring.walking.obligations import cancels, ends, tells, walks
+from autograder.authoring.walking.obligations import cancels, ends, reporting, walks
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.message_constants import GoalStatus
@@ -116,18 +116,18 @@ def test_a_result_holds_what_was_measured_for_its_own_goal():
     run = two_goals()
     for each in ("first", "second"):
         assert ends.succeeds(run.goal(each))
-        assert tells.reports_where_it_ended(run.goal(each)) == "SUCCEEDED"
+        assert reporting.reports_where_it_ended(run.goal(each)) == "SUCCEEDED"
 
 
 def test_a_final_pose_that_repeats_the_goal_is_told_so():
     with pytest.raises(Failure, match="m are forgiven") as failed:
-        tells.reports_where_it_ended(two_goals(final_pose=1.5).goal("second"))
+        reporting.reports_where_it_ended(two_goals(final_pose=1.5).goal("second"))
     assert "the pose that the goal asked for" in failed.value.help
 
 
 def test_steps_since_the_reset_are_told_so():
     with pytest.raises(Failure, match="since the robot was reset"):
-        tells.reports_where_it_ended(two_goals(steps=15).goal("second"))
+        reporting.reports_where_it_ended(two_goals(steps=15).goal("second"))
 
 
 def test_a_goal_is_rejected_for_what_holds_when_it_comes():
@@ -220,9 +220,9 @@ def test_the_newest_goal_has_the_robot():
     gone = ended("old", 3.3, 0.4, 4, GoalStatus.ABORTED, WalkTo.Result.PREEMPTED, "a newer goal")
     run = run_of(*events, gone, ended("new", 9.0, 1.0, 6), motions=[a_walk(1.2, 0.0, 1.0)])
     assert ends.gives_way(run.goal("old")) == "by 1 newer"
-    assert tells.says_why_it_aborted(run.goal("old"))
+    assert reporting.says_why_it_aborted(run.goal("old"))
     with pytest.raises(Failure, match="error_msg"):
-        tells.says_why_it_aborted(
+        reporting.says_why_it_aborted(
             run_of(
                 *events, ended("old", 3.3, 0.4, 4, GoalStatus.ABORTED, 2), motions=[a_walk(1.2, 0.0, 1.0)]
             ).goal("old")
@@ -264,7 +264,7 @@ def test_what_a_goal_becomes_after_ctrl_c_is_not_judged():
         ended("walk", 3.1, 0.0, 0, status=GoalStatus.ABORTED),
         motions=[a_walk(1.2, 0.0, 0.4)],
     )
-    for require in (ends.succeeds, tells.reports_where_it_ended, tells.says_why_it_aborted):
+    for require in (ends.succeeds, reporting.reports_where_it_ended, reporting.says_why_it_aborted):
         assert require(run.goal("walk")) is None
 
 
@@ -279,5 +279,5 @@ def test_an_estimate_that_is_none_is_told_so(estimate):
         *goal("walk", 1.0, 1.0), *feedback, ended("walk", 8.0, 0.97, 10), motions=[a_walk(1.2, 0.0, 0.97)]
     )
     with pytest.raises(Failure) as failed:
-        tells.estimates_the_time(run.goal("walk"))
+        reporting.estimates_the_time(run.goal("walk"))
     assert "estimated_time_remaining" in failed.value.expected

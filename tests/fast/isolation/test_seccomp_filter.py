@@ -15,8 +15,8 @@ from ros_runtime.project import PROJECT
 CONFINED = """
 import ctypes, errno, mmap, os, signal, socket, sys
 from autograder.isolation.lone_user import install_filter
-from autograder.isolation.student_sandbox import stand_back
-stand_back(os.getpid())
+from autograder.isolation.student_sandbox import lower_priority
+lower_priority(os.getpid())
 install_filter(sys.stdin.buffer.read())
 libc = ctypes.CDLL(None, use_errno=True)
 def call(number, *arguments):

@@ -167,7 +167,7 @@ def test_what_was_not_graded_is_first_with_its_reason_and_what_to_do(tmp_path):
     assert "1 graded, 1 not graded, 0 to be marked by hand" in words(page)
     assert "OSError" in words(read(tmp_path / "instructor/bert/walk_to.html"))
     seen = words(read(tmp_path / "pages/bert/walk_to.html"))
-    assert "no points either way" in seen
+    assert "Not graded: no score" in seen
     assert "not your fault" in seen
     assert "OSError" not in seen
 
@@ -175,7 +175,7 @@ def test_what_was_not_graded_is_first_with_its_reason_and_what_to_do(tmp_path):
 def test_an_essay_waits_and_its_student_sees_no_half_of_the_points(tmp_path):
     essay = grade("anna", check("graph", "marked", points=1.5), check("qos", "to mark"), exercise="essay")
     page = read(pages_of(tmp_path, essay))
-    assert "anna, essay: 1 of 2 criteria wait" in section(page, "To be marked by hand")
+    assert "anna, essay: 1 of 2 criteria are not marked yet" in section(page, "To be marked by hand")
     assert "No scores yet; 1 to be marked by hand" in section(page, "^essay$")
     assert rows(read(tmp_path / "instructor/anna/essay.html"), "Every check")[0][1:] == ["1.5/2", "• marked"]
     for row in rows(read(tmp_path / "pages/anna/essay.html"), "Every check"):
@@ -267,7 +267,7 @@ def test_a_student_finds_every_exercise_on_a_page_of_their_own(tmp_path):
     lost = grade("anna", reason="OSError: no space left on device", exercise="fetch")
     pages_of(tmp_path, walked, waiting, lost, grade("bert", check("a")))
     page = tmp_path / "pages/anna/index.html"
-    assert rows(read(page), "Every exercise") == [
+    assert rows(read(page), "All submitted exercises") == [
         ["essay", "to mark"],
         ["fetch", "not graded"],
         ["walk_to", "2/4"],
@@ -285,7 +285,7 @@ def test_checks_of_one_run_share_their_drawing(tmp_path):
     write_submission_pages(tmp_path, grade("anna", failed("a"), failed("b")), {"a": run, "b": list(run)})
     first, second = rows(read(tmp_path / "pages/anna/walk_to.html"), "Every check")
     assert first[0].endswith("what happened one run")
-    assert second[0].endswith("what happened: as drawn at The title of a")
+    assert second[0].endswith("what happened: see the drawing at The title of a")
 
 
 @pytest.mark.parametrize("name", ["../mallory", "..", "", "a/b"])

@@ -48,6 +48,6 @@ def end_with(monkeypatch: pytest.MonkeyPatch, error: Exception, sentence: str) -
 
 def test_a_submission_that_was_not_graded() -> None:
     grade = Grade("walk_to", "right", "namespaces", [NOT_JUDGED])
-    assert summary(grade) == "NOT GRADED, no points either way: the machine was too busy."
+    assert summary(grade) == "NOT GRADED, no score: the machine was too busy."
     with pytest.raises(DemoFailed, match=r"“right” could not be graded: .* too busy\.\nNext: .*--jobs 1"):
         _require_expected([grade])

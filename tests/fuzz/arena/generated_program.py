@@ -53,7 +53,7 @@ def _problem(target: Target, source: str, seed: int) -> str:
     options = GradingOptions(seed, jobs=1)
     with leftovers() as left:
         submission = Submission(target.exercise, "wild", {file: source})
-        wild = grade(submission, exercise, replace(options, at_first_look=target.checks))
+        wild = grade(submission, exercise, replace(options, checks_without_retry=target.checks))
     if wild.status != "graded":
         return f"the generated program was not graded:\n{_in_words(wild)}"
     if wild.all_passed:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from hypothesis import strategies as st
 
-from autograder.engine.essay import left_to_a_person, load_essay
+from autograder.engine.essay import load_essay, unmarked_grade
 from autograder.engine.exercise import file_names
 from fuzz import strategies as odd
 from fuzz.fuzzer import Fuzzer
@@ -29,7 +29,7 @@ def require_picture_or_none(text: str) -> None:
         assert len(svg) < LONGEST_PICTURE
         ElementTree.fromstring(svg)
         assert "<script" not in svg.lower()
-    grade = left_to_a_person(essay, "anna")
+    grade = unmarked_grade(essay, "anna")
     assert grade.status == "to mark"
     assert grade.score is None
 

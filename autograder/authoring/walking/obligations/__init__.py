@@ -1,6 +1,6 @@
-"""What must hold of every goal of a server that walks the robot to a pose, and of the robot while none is active.
+"""Requirements on every goal of a server that walks the robot to a pose, and on the robot while no goal is active.
 
-Each function is what an obligation of an exercise's model requires:
+An exercise's model makes an obligation of each function:
 
 comes_near = obligation(9, of=goals)(ends.comes_near)
 """

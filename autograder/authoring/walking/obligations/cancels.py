@@ -9,8 +9,8 @@ from autograder.authoring.walking import life
 from autograder.authoring.walking.truth import STOP_TIME, require_stopped, require_walking
 from humanoid_interfaces.msg import RobotState
 
-GETTING_GOING = 1.0  # s
-OVERTAKING = 0.3  # s
+START_TIME = 1.0  # s from the acceptance until the robot walks
+OVERTAKING_TIME = 0.3  # s; a goal that is sent so soon after a cancel may arrive before it
 
 
 def refuses_cancels(goal: Goal) -> str | None:
@@ -20,30 +20,30 @@ def refuses_cancels(goal: Goal) -> str | None:
     for cancel in goal.cancels:
         result = goal.result
         ended = result and result.t <= cancel.sent.t and result.status == ABORTED
-        if result and ended and not life.went_down(goal) and not life.successors(goal):
+        if result and ended and not life.fell_or_lost_power(goal) and not life.successors(goal):
             raise Failure(
                 expected="a goal that is still active when the request to cancel comes",
                 observed=f"it had ended at {result.t:.1f} s",
                 help=why_rclpy_aborted(goal)
-                or "A walk of 2 m takes longer: end the goal when the robot is there.",
+                or "A walk of 2 m takes longer: end the goal when the robot has arrived.",
                 at=result.t,
             )
         if cancel.answer is None:
-            cancel.require_agreed(goal)  # says why nobody answered
+            cancel.require_agreed(goal)  # raises: there was no answer
             return None
         expect(
             not cancel.answer.canceling,
             expected="the request to cancel refused (no goal in goals_canceling)",
             observed="it was accepted",
-            help="Give ActionServer no cancel_callback: rclpy refuses every cancel then. Do not promise what execute "
-            "does not do; chapter 7 is about it.",
+            help="Give ActionServer no cancel_callback: rclpy refuses every cancel then. Do not accept what execute "
+            "does not do; chapter 7 adds it.",
             at=cancel.answer.t,
         )
     return f"{len(goal.cancels)} asked, {_when(goal, goal.cancels[0].sent.t)}"
 
 
 def grants_cancels(goal: Goal) -> str | None:
-    """A cancel while the goal is active is agreed to, and the goal ends CANCELED."""
+    """A cancel while the goal is active is accepted, and the goal ends CANCELED."""
     asked = life.requests_to_cancel(goal)
     if not asked:
         return None
@@ -52,7 +52,7 @@ def grants_cancels(goal: Goal) -> str | None:
     first = next((cancel for cancel in asked if cancel.sent.t >= accepted_at), None)
     if early or first is None:
         return _ends_canceled(goal, early[0].sent.t) if early else None
-    down = life.went_down(goal)
+    down = life.fell_or_lost_power(goal)
     if any(other.sent.t < first.sent.t for other in life.successors(goal)) or (
         down and down.t < first.sent.t
     ):
@@ -71,7 +71,7 @@ def walks_until_canceled(goal: Goal) -> str | None:
     if not asked:
         return None
     first = asked[0].sent.t
-    if first < goal.accepted_at + GETTING_GOING or life.near_arrival(goal, first):
+    if first < goal.accepted_at + START_TIME or life.near_arrival(goal, first):
         return None
     require_walking(life.run_of(goal), first)
     return "in mid-stride"
@@ -84,7 +84,7 @@ def refuses_late_cancels(goal: Goal) -> str | None:
         expect(
             cancel.answer is not None and not cancel.answer.canceling,
             expected="the cancel of a goal that has ended to be refused",
-            observed="no answer" if cancel.answer is None else "the server agreed to cancel it",
+            observed="no answer" if cancel.answer is None else "the server accepted the cancel",
             help="Keep no list of goals of your own: rclpy knows which goals are active and refuses the others.",
             at=cancel.sent.t,
         )
@@ -95,7 +95,7 @@ def answers_every_cancel(goal: Goal) -> str | None:
     """Every request to cancel is answered, also the second for the same goal."""
     for cancel in goal.cancels:
         if cancel.answer is None:
-            cancel.require_agreed(goal)  # says why nobody answered
+            cancel.require_agreed(goal)  # raises: there was no answer
     return f"{len(goal.cancels)} asked" if goal.cancels else None
 
 
@@ -107,7 +107,7 @@ def stops_when_canceled(goal: Goal) -> str | None:
         return None
     asked = obeyed[0].sent.t
     end = min(life.next_sent(goal, asked), life.run_of(goal).end)
-    if end < asked + STOP_TIME + life.AT_LEAST:
+    if end < asked + STOP_TIME + life.MIN_STANDING_TIME:
         return None
     require_stopped(goal.run, asked, until=end)
     return _when(goal, asked)
@@ -124,15 +124,15 @@ def _when(goal: Goal, t: float) -> str:
 
 
 def _ends_canceled(goal: Goal, asked: float) -> str | None:
-    """Require that a goal whose cancel was agreed to ends CANCELED, or SUCCEEDED if that was just before arrival.
+    """Require that a goal whose cancel was accepted ends CANCELED, or SUCCEEDED if that was just before arrival.
 
-    A goal that comes after the cancel changes nothing about that, but what comes at once may overtake it.
+    That also holds if another goal comes after the cancel, unless it may have overtaken the cancel.
     """
     commands = (*goal.run.commands("push"), *goal.run.commands("motor_power"))
     was_put_down = any(goal.sent.t <= each.t <= life.ended_at(goal) for each in commands)
-    if life.left_alone(goal) or (life.went_down(goal) and was_put_down):
+    if life.was_not_awaited(goal) or (life.fell_or_lost_power(goal) and was_put_down):
         return None
-    if any(other.sent.t < asked + OVERTAKING for other in life.successors(goal)):
+    if any(other.sent.t < asked + OVERTAKING_TIME for other in life.successors(goal)):
         return None
     if goal.status == SUCCEEDED and life.near_arrival(goal, asked):
         return "just before arrival"

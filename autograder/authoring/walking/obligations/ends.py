@@ -1,4 +1,4 @@
-"""How a goal ends: it is reached, another takes its place, or the robot falls."""
+"""How a goal ends: the robot arrives, another goal preempts it, or the robot falls."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from autograder.authoring.diagnosis.goal_diagnosis import error_name, why_rclpy_
 from autograder.authoring.diagnosis.missing import not_shown
 from autograder.authoring.evidence.goal import ABORTED, SUCCEEDED, Goal
 from autograder.authoring.failure import expect
-from autograder.authoring.requirements.falls import REACTION, fall_after
+from autograder.authoring.requirements.falls import DETECTION_LEAD, fall_after
 from autograder.authoring.walking import life, reports
 from autograder.authoring.walking.motion import require_reached
 from autograder.authoring.walking.planar import error
@@ -17,10 +17,10 @@ from autograder.authoring.walking.truth import require_arrival
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.message_constants import GoalStatus, name_of
 
-GIVING_WAY = 5.0  # s
+PREEMPTION_TIME = 5.0  # s
 _WENT_ON = (
-    "The old goal went on after the new one was accepted. How does its loop learn that it is no longer the newest? "
-    "(handle_accepted_callback)"
+    "The old goal went on after the new one was accepted. Store the newest goal in handle_accepted_callback, and let "
+    "the loop of each goal check whether it is still the newest."
 )
 
 
@@ -35,7 +35,7 @@ def succeeds(goal: Goal) -> str | None:
 
 
 def goes_on(goal: Goal) -> str | None:
-    """A goal goes on, whatever is asked meanwhile and refused."""
+    """A goal goes on when another goal is rejected, or its cancel is refused."""
     if not life.accepted(goal) or goal.answer is None:
         return None
     rejected = any(
@@ -52,7 +52,7 @@ def goes_on(goal: Goal) -> str | None:
         result.status == SUCCEEDED and life.near_arrival(goal, result.t),
         expected=f"the first goal to go on after {what}",
         observed=f"it ended {name_of(GoalStatus, result.status)} at {result.t:.1f} s",
-        help=why_rclpy_aborted(goal) or f"Leave the goal that runs alone when {what}.",
+        help=why_rclpy_aborted(goal) or f"Let the active goal go on when {what}.",
         at=result.t,
     )
     return what
@@ -66,19 +66,23 @@ def gives_way(goal: Goal) -> str | None:
         return None
     came = newer[0].sent.t
     canceled = any(cancel.sent.t <= came for cancel in life.granted(goal))
-    if canceled or life.went_down(goal) or (goal.status == SUCCEEDED and life.near_arrival(goal, came)):
+    if (
+        canceled
+        or life.fell_or_lost_power(goal)
+        or (goal.status == SUCCEEDED and life.near_arrival(goal, came))
+    ):
         return None
     require_preempted(goal, came, _WENT_ON)
     return f"by {len(newer)} newer"
 
 
 def require_preempted(goal: Goal, came: float, help: str) -> None:
-    """Require that a goal gave way to one that came at a time (s); `help`: if it went on, or gave up by itself."""
+    """Require that a goal was PREEMPTED by one sent at `came` (s); `help` is for a goal that did not give way."""
     end = goal.require_result(ABORTED, help=help)
     reports.require_error_code(goal, "PREEMPTED", because="a new goal has taken its place", help=help)
     expect(
-        end.t <= came + GIVING_WAY,
-        expected=f"the old goal to end within {GIVING_WAY:g} s of the new one",
+        end.t <= came + PREEMPTION_TIME,
+        expected=f"the old goal to end within {PREEMPTION_TIME:g} s of the new one",
         observed=f"it ended {end.t - came:.1f} s after it",
         help=help,
         at=end.t,
@@ -90,15 +94,15 @@ def only_one_is_newest(goal: Goal) -> str | None:
     together = [goal, *life.together_with(goal)]
     if len(together) == 1 or goal.result is None or life.successors(goal):
         return None
-    if any(life.went_down(each) or life.granted(each) for each in together):
+    if any(life.fell_or_lost_power(each) or life.granted(each) for each in together):
         return None
     kept = [each for each in together if each.result is None or not _was_preempted(each)]
     expect(
         len(kept) == 1,
         expected="one of the goals that were accepted together to go on, and the others to end PREEMPTED",
         observed=f"{len(kept)} of {len(together)} went on",
-        help="Two goals can be accepted before either executes: let handle_accepted_callback note which is the newest, "
-        "and let one loop at a time steer.",
+        help="Two goals can be accepted before either executes: store the newest goal in handle_accepted_callback, and "
+        "let only the loop of that goal publish on cmd_vel.",
         at=goal.result.t,
     )
     return f"{len(together)} together"
@@ -106,7 +110,7 @@ def only_one_is_newest(goal: Goal) -> str | None:
 
 def tells_a_fall(goal: Goal) -> str | None:
     """When the robot falls, pushed or without power, the goal is ABORTED with FELL."""
-    down = life.went_down(goal)
+    down = life.fell_or_lost_power(goal)
     if down is None or any(cancel.sent.t < down.t for cancel in life.granted(goal)):
         return None
     if any(other.sent.t < down.t for other in life.successors(goal)) or life.together_with(goal):
@@ -114,16 +118,16 @@ def tells_a_fall(goal: Goal) -> str | None:
     fallen = fall_after(goal.run, down.t)
     if fallen is None:
         raise not_shown(goal.run, "a robot without power, or pushed over, falls")
-    if goal.result is None and life.left_alone(goal):
+    if goal.result is None and life.was_not_awaited(goal):
         return None
     if goal.result and goal.status == SUCCEEDED and goal.result.t <= fallen.t:
         return "as it arrived"
     result = goal.require_result(
         ABORTED,
-        help=f"The robot fell at {fallen.t:.1f} s and execute went on. Look at robot_state.mode in every round.",
+        help=f"The robot fell at {fallen.t:.1f} s and execute went on. Check robot_state.mode in every round.",
     )
     expect(
-        result.t >= down.t - REACTION,
+        result.t >= down.t - DETECTION_LEAD,
         expected="the goal to go on until the robot falls",
         observed=f"it ended {down.t - result.t:.1f} s before the robot fell",
         help="A push alone is no reason to give up: abort when robot_state.mode is FALLEN.",
@@ -135,7 +139,7 @@ def tells_a_fall(goal: Goal) -> str | None:
 
 
 def status_in_order(goal: Goal) -> str | None:
-    """A goal's status goes forward: accepted, executing, at most canceling, and then its one end."""
+    """A goal's status goes forward: accepted, executing, perhaps canceling, and then one final status."""
     seen = [each.status for each in goal.statuses]
     if not seen or not life.accepted(goal):
         return None
@@ -160,17 +164,17 @@ def status_in_order(goal: Goal) -> str | None:
 
 
 def _arrives(goal: Goal, require: Callable[[Goal], object]) -> str | None:
-    if not life.is_undisturbed(goal) or life.left_alone(goal):
+    if not life.is_undisturbed(goal) or life.was_not_awaited(goal):
         return None
     require(goal)
     distance, turn = error(goal.run.robot_at(goal.sent.t), goal)
-    way = "here" if distance < life.AT_IT else "a walk"
+    way = "here" if distance < life.AT_GOAL_DISTANCE else "a walk"
     turned = "turning back" if turn > 2.0 else "turning" if turn > life.BIG_TURN else "ahead"
     return f"{way}, {turned}; {life.phase(goal)}"
 
 
 def _require_no_preemption(goal: Goal) -> None:
-    """Require that a goal did not give way to one that was rejected, or that never was."""
+    """Require that a goal did not give way to a goal that was rejected or never sent."""
     expect(
         not _was_preempted(goal) or bool(life.together_with(goal)),
         expected="a goal that goes on: no other was accepted while it was active",

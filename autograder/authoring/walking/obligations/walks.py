@@ -18,22 +18,26 @@ from autograder.authoring.walking.truth import STOP, STOP_SPEED, STOP_TIME, requ
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.angles import wrap
 
-MIN_DISTANCE = 0.25  # m; a shorter way tells little about a speed
-BEGINNING = 3.0  # s in which a goal makes the robot walk
-STANDING = 1.2  # s after the result in which it must not move
+MIN_DISTANCE = 0.25  # m; a shorter walk is too short to judge its speed
+START_TIMEOUT = 3.0  # s from the acceptance until the robot must walk
+STANDING_TIME = 1.2  # s after the result in which the robot must not move
 ZERO = 1e-6  # m/s, rad/s
 _SETTLE = (
     "Stop, settle, measure, then succeed: a humanoid takes up to a second to finish its step after a zero Twist. Wait "
-    "until robot_state.mode has been STANDING for 0.5 s, and look at odom once more."
+    "until robot_state.mode has been STANDING for 0.5 s, and then read odom once more."
 )
 
 
 def obeys_max_velocity(goal: Goal) -> str | None:
     """From the start to the arrival the robot's mean speed is at most max_velocity."""
     limit = goal.request.max_velocity
-    if not life.accepted(goal) or not limit or limit > life.FASTEST or not life.began_at_rest(goal):
+    if not life.accepted(goal) or not limit or limit > life.MAX_WALKING_SPEED or not life.began_at_rest(goal):
         return None
-    if not life.is_undisturbed(goal) or life.left_alone(goal) or life.way_to(goal) < MIN_DISTANCE:
+    if (
+        not life.is_undisturbed(goal)
+        or life.was_not_awaited(goal)
+        or life.initial_distance(goal) < MIN_DISTANCE
+    ):
         return None
     require_limited_velocity(goal)
     return "slow" if limit < 0.1 else "fast"
@@ -41,21 +45,25 @@ def obeys_max_velocity(goal: Goal) -> str | None:
 
 def walks_at_its_own_velocity(goal: Goal) -> str | None:
     """With max_velocity 0 it walks at a velocity of its own."""
-    if not life.accepted(goal) or goal.request.max_velocity != 0.0 or life.way_to(goal) < MIN_DISTANCE:
+    if (
+        not life.accepted(goal)
+        or goal.request.max_velocity != 0.0
+        or life.initial_distance(goal) < MIN_DISTANCE
+    ):
         return None
     assert goal.answer
-    enough = goal.answer.t + BEGINNING
+    enough = goal.answer.t + START_TIMEOUT
     end = max(goal.answer.t, min(enough, life.ended_at(goal), goal.run.end))
     if any(robot.mode == RobotState.WALKING for robot in goal.run.robot_between(goal.answer.t, end)):
         return "max_velocity 0"
-    if end < enough or life.went_down(goal) or life.granted(goal) or life.successors(goal):
+    if end < enough or life.fell_or_lost_power(goal) or life.granted(goal) or life.successors(goal):
         return None
     raise Failure(
         expected="the robot walking to its goal by then",
         observed=f"it does not walk at {end:.1f} s",
         help="max_velocity 0 asks for a velocity of your own: goal_handle.request.max_velocity or DEFAULT_VELOCITY. "
-        "Publish it on cmd_vel as soon as the goal executes, and again all the time: the robot stops by itself 0.5 s "
-        "after the last one.",
+        "Publish it on cmd_vel as soon as the goal executes, and go on publishing it: the robot stops by itself 0.5 s "
+        "after the last Twist.",
         at=end,
     )
 
@@ -74,16 +82,16 @@ def turns_the_short_way(goal: Goal) -> str | None:
 
 def stands_at_success(goal: Goal) -> str | None:
     """When it SUCCEEDS the robot stands still, and stays so."""
-    if goal.status != SUCCEEDED or life.successors(goal) or life.went_down(goal):
+    if goal.status != SUCCEEDED or life.successors(goal) or life.fell_or_lost_power(goal):
         return None
     assert goal.result
     since, end = goal.result.t, life.next_sent(goal, goal.result.t)
-    if end - since < life.AT_LEAST:
+    if end - since < life.MIN_STANDING_TIME:
         return None
     require_accepted(goal)
-    watched = goal.run.robot_between(since, min(since + STANDING, end))
+    watched = goal.run.robot_between(since, min(since + STANDING_TIME, end))
     require_standing(watched, "when the goal SUCCEEDED, and", since, "the result", _SETTLE)
-    return "a goal where it stands" if life.way_to(goal) < life.AT_IT else "a walk"
+    return "a goal where it stands" if life.initial_distance(goal) < life.AT_GOAL_DISTANCE else "a walk"
 
 
 def ends_with_a_zero_twist(goal: Goal) -> str | None:
@@ -93,7 +101,10 @@ def ends_with_a_zero_twist(goal: Goal) -> str | None:
     assert goal.result
     run, end = life.run_of(goal), life.next_sent(goal, goal.result.t)
     velocities = [each for each in run.received("cmd_vel") if each.t < end]
-    if not any(goal.sent.t <= each.t for each in velocities) and life.way_to(goal) < life.AT_IT:
+    if (
+        not any(goal.sent.t <= each.t for each in velocities)
+        and life.initial_distance(goal) < life.AT_GOAL_DISTANCE
+    ):
         return "nothing published where it stands"
     require_accepted(goal)
     if not velocities:
@@ -103,11 +114,11 @@ def ends_with_a_zero_twist(goal: Goal) -> str | None:
         bool(before) and _is_zero(before[-1].message),
         expected="a zero Twist as the last on cmd_vel before the goal SUCCEEDED",
         observed=_shown(before[-1].message) if before else "none",
-        help="The robot would walk on for 0.5 s after the last one. Publish Twist(), all zeros, before you wait "
+        help="The robot walks on for 0.5 s after the last other Twist. Publish Twist(), all zeros, before you wait "
         "for the robot to stand, and no other after it.",
         at=goal.result.t,
     )
-    return "walked" if life.way_to(goal) >= life.AT_IT else "stood there"
+    return "walked" if life.initial_distance(goal) >= life.AT_GOAL_DISTANCE else "stood there"
 
 
 def does_not_steer_without_a_goal(run: Transcript) -> str | None:
@@ -118,7 +129,7 @@ def does_not_steer_without_a_goal(run: Transcript) -> str | None:
             _has_goal(run, each.t),
             expected="nothing but zeros on cmd_vel while no goal is active",
             observed=_shown(each.message),
-            help="Somebody steers without a goal: a timer or a thread that does not know that the goal is over, or a "
+            help="Your node publishes without a goal: a timer or a thread does not stop with the goal, or serves a "
             "goal that was rejected.",
             at=each.t,
         )

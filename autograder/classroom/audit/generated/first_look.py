@@ -91,7 +91,7 @@ def first_look(
 
     try:
         every = [check.id for check in exercise.checks]
-        options = GradingOptions(seed + repetition, 1, scale, at_first_look=every, shortens=False)
+        options = GradingOptions(seed + repetition, 1, scale, checks_without_retry=every, shortens=False)
         result = grade(known.read(), exercise, options, Watcher(report), arenas=arenas, stop=stop)
     except _Plain:
         settled = {one.id: one for one in verdicts.values() if one.status != "error"}

@@ -1,4 +1,4 @@
-"""What a server says of a goal, in feedback and result."""
+"""What a server reports about a goal in feedback and result."""
 
 from __future__ import annotations
 
@@ -11,16 +11,18 @@ from autograder.authoring.requirements.feedback import require_good_feedback_rat
 from autograder.authoring.walking import life, reports
 from ros_runtime.message_constants import GoalStatus, name_of
 
-MIN_DURATION = 3.0  # s; a goal of less tells little about a rate
+MIN_DURATION = 3.0  # s; a shorter goal has too little feedback to judge its rate
 MIN_FEEDBACK = 8  # feedback messages
-LISTENED = 1.2  # s after a result for which a scenario has to listen for feedback that must not come
-ON_ITS_WAY = 0.3  # s a message may be overtaken by the result
-FAR_DISTANCE, MIN_ESTIMATE = 0.5, 1.0  # m, s; the robot needs more than so long for so much
+LISTENING_TIME = (
+    1.2  # s for which the scenario must go on after a result, to record feedback that must not come
+)
+DELIVERY_SLACK = 0.3  # s by which the result may overtake feedback
+FAR_DISTANCE, MIN_ESTIMATE = 0.5, 1.0  # m, s; the robot needs at least this time for this distance
 
 
 def feedback_at_5_hz(goal: Goal) -> str | None:
     """Feedback comes at 5 Hz without a gap over 1 s."""
-    if not life.accepted(goal) or life.left_alone(goal) or life.interrupted(goal):
+    if not life.accepted(goal) or life.was_not_awaited(goal) or life.interrupted(goal):
         return None
     if goal.accepted_at + MIN_DURATION > life.ended_at(goal):
         return None
@@ -29,7 +31,7 @@ def feedback_at_5_hz(goal: Goal) -> str | None:
 
 
 def feedback_is_true(goal: Goal) -> str | None:
-    """Pose, distance and steps in the feedback are the robot's, for this goal; the estimate is one."""
+    """Pose, distance and steps in the feedback are the robot's, for this goal."""
     if not life.accepted(goal) or not goal.feedback:
         return None
     reports.require_true_feedback(goal)
@@ -41,7 +43,7 @@ def estimates_the_time(goal: Goal) -> str | None:
     if not life.accepted(goal) or not goal.feedback:
         return None
     estimates = [seconds(each.feedback.estimated_time_remaining) for each in goal.feedback]
-    is_slow = goal.request.max_velocity <= life.FASTEST
+    is_slow = goal.request.max_velocity <= life.MAX_WALKING_SPEED
     for each, estimate in zip(goal.feedback, estimates, strict=True):
         much = is_slow and each.feedback.distance_remaining > FAR_DISTANCE
         least = MIN_ESTIMATE if much else 0.0
@@ -56,7 +58,7 @@ def estimates_the_time(goal: Goal) -> str | None:
         )
     result = goal.result
     arrived = goal.status == SUCCEEDED and result is not None and life.near_arrival(goal, result.t)
-    walked = life.is_undisturbed(goal) and arrived and is_slow and life.way_to(goal) >= FAR_DISTANCE
+    walked = life.is_undisturbed(goal) and arrived and is_slow and life.initial_distance(goal) >= FAR_DISTANCE
     if not walked or len(estimates) < MIN_FEEDBACK:
         return "on the way"
     quarter = len(estimates) // 4
@@ -73,12 +75,12 @@ def estimates_the_time(goal: Goal) -> str | None:
 
 def feedback_ends_with_the_goal(goal: Goal) -> str | None:
     """After the result no more feedback comes."""
-    if not life.accepted(goal) or goal.result is None or goal.run.end < goal.result.t + LISTENED:
+    if not life.accepted(goal) or goal.result is None or goal.run.end < goal.result.t + LISTENING_TIME:
         return None
     if not goal.feedback:
         return None
     end = goal.result.t
-    late = [feedback for feedback in goal.feedback if feedback.t > end + ON_ITS_WAY]
+    late = [feedback for feedback in goal.feedback if feedback.t > end + DELIVERY_SLACK]
     expect(
         not late,
         expected="no feedback after the result",
@@ -119,7 +121,7 @@ def says_why_it_aborted(goal: Goal) -> str | None:
         expected="a sentence in error_msg",
         observed="an empty text",
         help=why_rclpy_aborted(goal)
-        or "Say in result.error_msg what happened, for people, before you call abort().",
+        or "Describe in result.error_msg what happened, before you call abort().",
         at=goal.result.t,
     )
     return "aborted"

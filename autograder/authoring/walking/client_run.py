@@ -1,4 +1,4 @@
-"""What a client of a walking action owes, by what happened to it: how it may end, when, and what it has to cancel."""
+"""One run of a client of a walking action: how and when it may end, and when it has to cancel its goal."""
 
 from __future__ import annotations
 
@@ -27,26 +27,29 @@ BY_STATUS = {
 }
 SILENCE_LIMIT = 5.0  # s
 # s on the arena's clock:
-FINDING = 2.0  # from the node's appearance until the grader has seen it
-ORDER_MARGIN = 0.5  # between two moments that a client surely sees in their order
-NEARLY = 0.25  # less than SILENCE_LIMIT, in which a busy client may already think that it is over
-LEAVES_SOON = 3.0  # beyond a clause's limit, on a busy machine
-LEAVING = 8.0  # for what no clause limits: to print a line, and to end every thread and the node
-SURELY_WAITED = 4.0  # of the 5 after Ctrl-C
+DETECTION_TIME = 2.0  # from the start of the node until the grader has detected it
+ORDER_MARGIN = 0.5  # at this distance, a client certainly receives two events in their order
+EARLY_SLACK = 0.25  # by which a busy client may detect a silence before SILENCE_LIMIT
+EXIT_SLACK = 3.0  # beyond a clause's limit, on a busy machine
+EXIT_TIME = 8.0  # for what no clause limits: to print a line, and to end every thread and the node
+MIN_WAIT_TIME = 4.0  # of the 5 s that a client waits after Ctrl-C
 STATUS_HELP = (
-    "Look at response.status first: 4 is SUCCEEDED, 5 CANCELED, 6 ABORTED (action_msgs/GoalStatus). "
+    "Check response.status first: 4 is SUCCEEDED, 5 CANCELED, 6 ABORTED (action_msgs/GoalStatus). "
     "Return the exit status from main() and end the file with sys.exit(main())."
 )
 _FIND = "wait_for_server(timeout_sec=5.0) returns False when there is none: print a line and return 1."
 _AWAIT_AN_ANSWER = (
-    "spin_until_future_complete(node, future, timeout_sec=5.0) returns with no result: look at future.done()."
+    "spin_until_future_complete(node, future, timeout_sec=5.0) returns without a result after 5 s: check "
+    "future.done()."
 )
-_LOOK_AT_ACCEPTED = "Look at goal_handle.accepted before you ask for the result: a rejected goal has none."
-_LISTEN = "Give the waiting for the result a limit on silence, and return 1 when it is over."
-_EXPECT_DEATH = "A server that has died answers nothing, no cancel either: give each wait a time limit."
+_CHECK_ACCEPTED = "Check goal_handle.accepted before you request the result: a rejected goal has none."
+_LIMIT_SILENCE = (
+    "While you wait for the result, check when feedback came last, and return 1 after 5 s without any."
+)
+_EXPECT_DEATH = "A server that has died answers nothing, not even a cancel request: give each wait a timeout."
 _WAIT_NO_LONGER = (
     "Wait for the result at most 5 s after the cancel, then print a line and return 4, whatever the status of the "
-    "goal: you interrupted the program."
+    "goal: the user interrupted the program."
 )
 
 
@@ -65,37 +68,37 @@ class End:
 
 @dataclass(frozen=True)
 class Cause:
-    """A reason to cancel the goal: from `since` to `latest` (s) a request has to come, if it `is_owed`."""
+    """A reason to cancel the goal: if it `is_required`, a request must come from `since` to `latest` (s)."""
 
     name: str
     because: str
     since: float
     latest: float
-    is_owed: bool
+    is_required: bool
     once: bool = False
 
 
 @dataclass(frozen=True)
-class ClientLife:
-    """One run of a client, with the moments (s) that decide what it owes; a moment that never came is `inf`."""
+class ClientRun:
+    """One run of a client, with the times (s) that decide what it must do; `inf` if an event never came."""
 
     run: Transcript
     action: ClassVar[str] = "walk_to"
     pose_field: ClassVar[str] = "target_pose"  # of its goal
     end_in_time: ClassVar[str] = (
-        "Give each wait a limit, counted from its beginning: for the result at most 5 s after Ctrl-C, and for the "
-        "answer to a cancel, too."
+        "Give each wait a timeout, also the wait for the answer to a cancel. After Ctrl-C, wait for the result at "
+        "most 5 s."
     )
 
     @cached_property
     def goal(self) -> ScriptedGoal | None:
-        """The goal that it sent; None: nobody offered the action."""
+        """The goal that it sent; None: the action was not offered."""
         offered = any(event.action == self.action for event in self.run.all(ev.ActionOffered))
         return require_one_goal(self.run, self.action) if offered else None
 
     @cached_property
     def asked(self) -> list[float]:
-        """When somebody asked it to cancel, by a line q."""
+        """When the user asked it to cancel, with a line q."""
         return [
             event.t
             for event in self.run.all(ev.NodeTyped)
@@ -129,7 +132,7 @@ class ClientLife:
 
     @property
     def result(self) -> float:
-        """When the result was sent, or would have been sent if the client, which never did, had asked for it."""
+        """When the result was sent; if the client never requested it, when it would have been sent."""
         goal, after = self.goal, (self.run.params.get("server") or {}).get("result_after", 0.0)
         if goal and goal.result_sent:
             return goal.result_sent.t
@@ -144,30 +147,30 @@ class ClientLife:
 
     @property
     def received(self) -> list[float]:
-        """When it was accepted, and each feedback after that."""
+        """The times of the acceptance and of each feedback after it."""
         assert self.goal is not None
         return [self.accepted, *(each.t for each in self.goal.feedback if each.t > self.accepted)]
 
     def silences(self) -> Iterator[tuple[float, float, bool]]:
-        """Yield the silences up to the first certain one: when each is 5 s long (s), the latest, and if it is certain.
+        """Yield each silence up to the first certain one: earliest and latest end (s) of its 5 s, and if it is certain.
 
-        A client may begin to count anew when it is asked to cancel.
+        The two ends differ because a client may start its 5 s again when the user asks it to cancel.
         """
         for earlier, later in pairwise([*self.received, self.result]):
             anew = max([earlier, *(t for t in self.asked if earlier < t < earlier + SILENCE_LIMIT)])
-            if later - earlier > SILENCE_LIMIT - NEARLY:
+            if later - earlier > SILENCE_LIMIT - EARLY_SLACK:
                 is_certain = later - anew > SILENCE_LIMIT + ORDER_MARGIN
                 yield earlier + SILENCE_LIMIT, anew + SILENCE_LIMIT, is_certain
                 if is_certain:
                     return
 
-    # -- what it owes -------------------------------------------------------------------------------------------------
+    # -- what it must do ----------------------------------------------------------------------------------------------
 
     def causes(self) -> list[Cause]:
-        """Return what asks it to cancel its goal."""
+        """Return the reasons to cancel its goal."""
         if self.accepted == inf:
             return []
-        because = f"nothing was heard of it for {SILENCE_LIMIT:g} s"
+        because = f"no feedback came for {SILENCE_LIMIT:g} s"
         return [
             *self.reasons(),
             *(
@@ -177,7 +180,7 @@ class ClientLife:
         ]
 
     def reasons(self) -> Iterable[Cause]:
-        """Yield what asks it to cancel its goal, but for silence."""
+        """Yield the reasons to cancel its goal, except silence."""
         if self.asked:
             due = max(self.asked[0], self.accepted)
             yield self._cause("q", "you typed q", due, due, once=True)
@@ -187,34 +190,34 @@ class ClientLife:
     def _cause(
         self, name: str, because: str, since: float, due: float, is_certain: bool = True, once: bool = False
     ) -> Cause:
-        """Return a cause; nothing is owed to a server that is gone, nor where another end comes first."""
+        """Return a cause; it requires no request if the server is gone or another end comes first."""
         others = [end.at for end in self.ends() if end.name != name]
         over = min([self.when(ev.ActionWithdrawn), *others])
-        is_owed = is_certain and over > due + SLACK and since <= self.exited
-        return Cause(name, because, since, due + SLACK, is_owed, once)
+        is_required = is_certain and over > due + SLACK and since <= self.exited
+        return Cause(name, because, since, due + SLACK, is_required, once)
 
     def ends(self) -> list[End]:
-        """Return how it may end: more than one way only where two moments are too close to have an order."""
+        """Return how it may end: in several ways only if two events are too close to have a certain order."""
         if self.goal is None:
             return self._without_a_goal()
         if self.goal.reply is None:
             due, because = self.goal.received.t + SILENCE_LIMIT, "the goal was never answered"
-            latest = due + LEAVES_SOON
+            latest = due + EXIT_SLACK
             return [End(NO_SERVER, "no answer", because, due, due - ORDER_MARGIN, latest, _AWAIT_AN_ANSWER)]
         if not self.goal.is_accepted:
             t, because = self.goal.reply.t, "the goal was rejected"
-            return [End(REJECTED, "rejected", because, t, t, t + LEAVING, _LOOK_AT_ACCEPTED)]
+            return [End(REJECTED, "rejected", because, t, t, t + EXIT_TIME, _CHECK_ACCEPTED)]
         found = [(end, is_certain) for end, is_certain in self._after_the_acceptance() if end.at < inf]
         found.sort(key=lambda each: each[0].at)
         last = next((end.at for end, is_certain in found if is_certain), inf) + ORDER_MARGIN
         return [end for end, _ in found if end.at <= last]
 
     def _without_a_goal(self) -> list[End]:
-        due, because = self.started + SILENCE_LIMIT, f"nobody offers {self.action}"
-        return [End(NO_SERVER, "no server", because, due, due - FINDING, due + SLACK + 3.0, _FIND)]
+        due, because = self.started + SILENCE_LIMIT, f"no server offers {self.action}"
+        return [End(NO_SERVER, "no server", because, due, due - DETECTION_TIME, due + SLACK + 3.0, _FIND)]
 
     def _after_the_acceptance(self) -> Iterator[tuple[End, bool]]:
-        """Yield each end of an accepted goal's client, if nothing else came first, and whether it is certain."""
+        """Yield each end that is possible after the acceptance, and whether it is certain if no other comes first."""
         assert self.goal is not None
         result, pressed, silent = self.result, self.interrupted, inf
         if self.goal.finished and result < inf:
@@ -222,7 +225,7 @@ class ClientLife:
         for end, is_certain in self._in_silence():
             silent = min(silent, end.at)
             yield end, is_certain
-        earliest = max(pressed, min(result, pressed + SURELY_WAITED, silent - ORDER_MARGIN))
+        earliest = max(pressed, min(result, pressed + MIN_WAIT_TIME, silent - ORDER_MARGIN))
         latest = pressed + SILENCE_LIMIT + SLACK
         yield End(CANCELED, "Ctrl-C", "Ctrl-C was pressed", pressed, earliest, latest, _WAIT_NO_LONGER), True
 
@@ -230,13 +233,15 @@ class ClientLife:
         for since, latest, is_certain in self.silences():
             is_dead = self.when(ev.ActionWithdrawn) < since
             because, help = (
-                ("the server has died", _EXPECT_DEATH) if is_dead else ("the server is silent", _LISTEN)
+                ("the server has died", _EXPECT_DEATH)
+                if is_dead
+                else ("the server is silent", _LIMIT_SILENCE)
             )
-            latest += SILENCE_LIMIT + LEAVES_SOON
+            latest += SILENCE_LIMIT + EXIT_SLACK
             yield End(NO_SERVER, "silence", because, since, since - ORDER_MARGIN, latest, help), is_certain
 
     def left_early(self, end: End, exited: ev.NodeExited) -> Failure:
-        """Return the failure of a program that ended before it could know that it may end like this."""
+        """Return the failure of a program that ended before this end was allowed."""
         if self.accepted < inf:
             assert self.goal is not None
             return Failure(
@@ -256,10 +261,10 @@ class ClientLife:
 
 def by_status(status: int, t: float) -> End:
     """Return the end of a program that got its goal's result, with this status, at a time (s)."""
-    return End(*BY_STATUS[status], t, t, t + LEAVING, STATUS_HELP)
+    return End(*BY_STATUS[status], t, t, t + EXIT_TIME, STATUS_HELP)
 
 
-def clients(run: Transcript) -> list[ClientLife]:
-    """Return the one life of the client, whose server and person did what the scenario says."""
-    require_record(run, ClientLife.action)
-    return [ClientLife(run)]
+def clients(run: Transcript) -> list[ClientRun]:
+    """Return the one run of the client; raise if the record lacks what server and user did in the scenario."""
+    require_record(run, ClientRun.action)
+    return [ClientRun(run)]
