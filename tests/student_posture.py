@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from autograder.isolation.limits import StudentLimits
-from autograder.isolation.student_sandbox import NICE_INCREMENT, OOM_SCORE
+from autograder.isolation.student_sandbox import OOM_SCORE
 
 _CAPABILITIES = ("CapInh", "CapPrm", "CapEff", "CapBnd", "CapAmb")
 _OWN = ("ipc", "mnt", "pid", "user", "uts")
@@ -49,7 +49,7 @@ PROMISES: Mapping[str, tuple[str, str]] = {
         f"{_ALLOWED.sockets} sockets",
     ),
     "scheduling": (
-        f"batch, nice +{NICER}",
+        f"batch, nice +{NICE_INCREMENT}",
         "robot and grader have priority; its processor time is measured, and if it uses too much, the check fails with "
         "that figure",
     ),

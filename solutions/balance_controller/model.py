@@ -322,7 +322,7 @@ def refuses_to_start(run: Transcript) -> str:
 @obligation(14, of=whole_run)
 def survives(run: Transcript) -> str | None:
     """With the published gains the robot survives a push of 10 N·s"""
-    pushed = run.told("push").t
+    pushed = run.last_command("push").t
     if not gains.hold_the_robot(record.gains_at(run, pushed)):
         return None
     watched = run.robot_between(pushed, pushed + FALL_TIME)

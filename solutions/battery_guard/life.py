@@ -66,7 +66,7 @@ def is_percentage(level: float) -> bool:
 
 
 @dataclass(frozen=True)
-class GuardLife(ClientLife):
+class GuardLife(ClientRun):
     """One run of a guard, with the messages of battery and robot during it."""
 
     action: ClassVar[str] = NAVIGATE
@@ -221,7 +221,7 @@ class GuardLife(ClientLife):
             is_refused = any(cancel.reply and not cancel.reply.canceling for cancel in self.goal.cancels)
             may_go_on = is_refused and not by_keyboard
             because = f"the goal had no result {SILENCE_LIMIT:g} s after the cancel request"
-            latest = waits_until + LEAVES_SOON
+            latest = waits_until + EXIT_SLACK
             yield (
                 End(CANCELED, "no CANCELED", because, earliest, earliest, latest, _WAIT_NO_LONGER),
                 waits_until == over and not may_go_on,
@@ -239,7 +239,7 @@ class GuardLife(ClientLife):
             return end
         stands = self.stands_from(t)
         name = "no STANDING" if is_called_off and stands > t + SILENCE_LIMIT else end.name
-        latest = t + SILENCE_LIMIT + LEAVES_SOON  # it may wait this long for STANDING in any case
+        latest = t + SILENCE_LIMIT + EXIT_SLACK  # it may wait this long for STANDING in any case
         earliest = end.earliest
         if is_called_off and self.for_the_battery:
             earliest = min(stands, t + SILENCE_LIMIT - ORDER_MARGIN)

@@ -63,7 +63,7 @@ def advice_on_failing(call: Call, story: Story, published: int) -> str:
     """Return advice on a calibration that should have succeeded; `published` imu messages came during it."""
     said = shown_fields(call.response, "message")
     for topic in ("imu", "robot_state"):
-        if cause := why_nothing_is_heard(call.run, topic):
+        if cause := why_no_message_arrives(call.run, topic):
             return cause
     waited, asked = call.latency, status_requests(call)
     if asked and story.situation == truth.SAYS_NO:

@@ -43,7 +43,7 @@ def contains_name(message: str, name: str) -> bool:
 
 def not_heard(call: Call) -> str:
     """Return why the node receives no joint_states, as far as the record shows."""
-    cause = why_nothing_is_heard(call.run, "joint_states")
+    cause = why_no_message_arrives(call.run, "joint_states")
     return (
         cause or "Subscribe to joint_states with qos_profile_sensor_data, as the robot publishes best effort."
     )

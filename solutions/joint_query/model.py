@@ -49,7 +49,7 @@ def finds_the_joints(call: Call) -> str | None:
         expected=f"success: true for {asked(call)}, which the robot has",
         observed=shown_fields(call.response, "success", "message"),
         help=advice.not_heard(call) if unsubscribed else advice.on_refusal(call),
-        see=lesson_on_hearing(call.run, "joint_states"),
+        see=lesson_on_subscribing(call.run, "joint_states"),
     )
     return "without a subscription" if unsubscribed else truth.situation(call)
 

@@ -20,7 +20,7 @@ def on_status(call: Call, wanted: str) -> str:
         return "Set success to True: it says whether the status is known, not whether the motors are on."
     if response.message.strip().rstrip(".").lower() == wanted.lower():
         return f"Spell the text exactly like this, as programs compare it: {wanted!r}."
-    if cause := why_nothing_is_heard(call.run, "robot_state"):
+    if cause := why_no_message_arrives(call.run, "robot_state"):
         return f"{cause} {_FROM_THE_LAST}"
     if history := _history_of_the_status(call):
         return f"{history} {_FROM_THE_LAST}"
@@ -57,7 +57,7 @@ def on_power(call: Call) -> str:
     """Return what the grader received on motor_power, and advice."""
     run, wanted = call.run, call.request.data
     publish = f"Publish Bool(data=request.data) on motor_power when you accept {question(call)}."
-    if seen := why_nothing_is_commanded(run, "motor_power", before=call.answered.t):
+    if seen := why_no_command_arrives(run, "motor_power", before=call.answered.t):
         return f"On motor_power the grader received {seen}. {publish}"
     sent = [other.t for other in run.all(ev.ServiceCalled) if other.service == call.service]
     later = min((t for t in sent if t > call.sent.t), default=math.inf)
@@ -87,7 +87,7 @@ def on_refusing(call: Call) -> str:
         if not call.response.message.strip():
             return "Nothing was switched off, but success is true: set response.success = False, and give the reason."
         return "Nothing was switched off, but success is true: set response.success = False, which fits your message."
-    if cause := why_nothing_is_heard(call.run, "robot_state"):
+    if cause := why_no_message_arrives(call.run, "robot_state"):
         return f"{cause} Without it the node cannot know that the robot walks."
     return (
         "If data is false and the last robot_state.mode is WALKING, set success to false and publish nothing."

@@ -196,7 +196,7 @@ def gives_way(goal: Goal) -> str | None:
 
 def _ends_by(goal: Goal, fate: life.Fate) -> bool:
     """Return whether this fate, and nothing else, ends the goal, and the scenario waited for the result."""
-    return life.ends_by_itself(goal) and not left_alone(goal) and life.fate_of(goal) is fate
+    return life.ends_by_itself(goal) and not was_not_awaited(goal) and life.fate_of(goal) is fate
 
 
 def _why_given_up(goal: Goal) -> str:

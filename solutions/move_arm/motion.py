@@ -26,7 +26,7 @@ MIN_DISTANCE_LEFT = 0.25  # rad from the end of an aborted trajectory, within wh
 
 def passes_every_point(goal: Goal) -> str | None:
     """The arm passes every point of the trajectory when it is due."""
-    if not life.ends_by_itself(goal) or goals.left_alone(goal) or life.hold_of(goal):
+    if not life.ends_by_itself(goal) or goals.was_not_awaited(goal) or life.hold_of(goal):
         return None
     plan = plan_of(goal)
     for number, places in enumerate(plan.places[1:]):

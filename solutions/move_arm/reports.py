@@ -103,7 +103,7 @@ def names_the_joint(goal: Goal) -> str | None:
 
 def _has_time_for_feedback(goal: Goal) -> bool:
     """Return whether an accepted goal lasted long enough for its feedback to be checked."""
-    if not is_carried_out(goal) or left_alone(goal) or interrupted(goal):
+    if not is_carried_out(goal) or was_not_awaited(goal) or interrupted(goal):
         return False
     return ends_by_itself(goal) or ended_at(goal) >= goal.accepted_at + MIN_DURATION
 

@@ -16,7 +16,7 @@ _ACCEPT = (
 
 def require_accepted(goal: Goal) -> Goal:
     """Require that the server accepted the goal."""
-    causes = (why_nothing_is_heard(goal.run, topic) for topic in ("joint_limits", "joint_states"))
+    causes = (why_no_message_arrives(goal.run, topic) for topic in ("joint_limits", "joint_states"))
     return goal.require_accepted(next(filter(None, causes), _ACCEPT))
 
 

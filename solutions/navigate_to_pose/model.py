@@ -157,7 +157,7 @@ def stands_after_the_limit(goal: Goal) -> str | None:
     """After TIMEOUT the robot stands still, also when it is no longer held"""
     if not _timed_out(goal) or not operated(goal, "hold"):
         return None
-    require_stopped(goal.run, goal.run.told("take_over", velocity=None).t, event="its release")
+    require_stopped(goal.run, goal.run.last_command("take_over", velocity=None).t, event="its release")
     return "released"
 
 
@@ -285,7 +285,7 @@ def estimates_the_time(leg: Leg) -> str:
             "in the last second. Do not divide by a speed of 0.",
             at=feedback.t,
         )
-    estimate = tells.seconds(feedback_half_way(leg).feedback.estimated_time_remaining)
+    estimate = reporting.seconds(feedback_half_way(leg).feedback.estimated_time_remaining)
     left = leg.end - leg.half
     expect(
         left / ESTIMATE_FACTOR <= estimate <= left * ESTIMATE_FACTOR,

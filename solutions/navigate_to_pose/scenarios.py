@@ -19,7 +19,7 @@ def in_order(stage: Stage, steps: Steps) -> None:
 
     def get_away(distance: float) -> None:
         """Wait until the robot is at a distance (m) from the origin."""
-        robot.wait_for(lambda state: math.hypot(state.x, state.y) > distance, COMING_NEAR)
+        robot.wait_for(lambda state: math.hypot(state.x, state.y) > distance, APPROACH_TIMEOUT)
 
     def lead_astray(back: float, side: float) -> None:
         """As an operator walk the robot back for `back` s, turn it to a side (1 left, -1 right), then release it."""

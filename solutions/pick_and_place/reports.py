@@ -125,7 +125,7 @@ def values_are_measured(goal: Goal) -> str | None:
 
 def _must_have_feedback(goal: Goal) -> bool:
     """Return whether the goal was for the cup and lasted, without a fall or Ctrl-C; if so, require feedback."""
-    if not is_for_the_cup(goal) or left_alone(goal) or interrupted(goal) or commanded(goal, "push"):
+    if not is_for_the_cup(goal) or was_not_awaited(goal) or interrupted(goal) or commanded(goal, "push"):
         return False
     if ended_at(goal) < goal.accepted_at + MIN_DURATION:
         return False

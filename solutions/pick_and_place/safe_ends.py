@@ -57,7 +57,7 @@ def knows_what_is_unknown(goal: Goal) -> str | None:
 
 def refuses_what_is_out_of_reach(goal: Goal) -> str | None:
     """If the cup or the place is out of reach, the goal ends with UNREACHABLE before arm or hand move."""
-    if not life.ends_by_itself(goal) or left_alone(goal):
+    if not life.ends_by_itself(goal) or was_not_awaited(goal):
         return None
     if not life.is_for_the_cup(goal) or not life.is_far(goal):
         return None
@@ -134,7 +134,7 @@ def withdraws_what_is_empty(goal: Goal) -> str | None:
 
 def notices_what_it_loses(goal: Goal) -> str | None:
     """When the cup is lost while it is lifted or moved, the goal ends with DROPPED."""
-    taken = life.robbed_at(goal) if life.ends_by_itself(goal) and not left_alone(goal) else None
+    taken = life.robbed_at(goal) if life.ends_by_itself(goal) and not was_not_awaited(goal) else None
     if taken is None or not carried(goal, taken):
         return None
     require_held_when(goal, taken)
@@ -262,7 +262,7 @@ def gives_the_hand_to_one(goal: Goal) -> str | None:
 
 def _robbed_of_its_grasp(goal: Goal) -> float | None:
     """Return when (s) the scenario took the cup away, if the hand had not lifted it yet."""
-    taken = life.robbed_at(goal) if life.ends_by_itself(goal) and not left_alone(goal) else None
+    taken = life.robbed_at(goal) if life.ends_by_itself(goal) and not was_not_awaited(goal) else None
     return None if taken is None or carried(goal, taken) else taken
 
 

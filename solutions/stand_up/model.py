@@ -84,7 +84,7 @@ def accepts(goal: Goal) -> str | None:
             help='Write create_subscription(Odometry, "odom", …): a relative name, without a leading slash.',
             at=last.t,
         )
-    causes = (why_nothing_is_heard(run, topic) for topic in ("odom", "robot_state"))
+    causes = (why_no_message_arrives(run, topic) for topic in ("odom", "robot_state"))
     later = any(result.t < goal.sent.t for result in run.all(ev.ResultReceived))
     help = advice.STANDS_ALREADY if stands else advice.FREE_AGAIN if later else advice.ACCEPT
     goal.require_accepted(next(filter(None, causes), help))
@@ -416,7 +416,7 @@ def stays_where_it_ended(goal: Goal) -> str | None:
 @obligation(8, of=goals, see="06_walk_to_a_pose#settle-intro")
 def feedback_at_5_hz(goal: Goal) -> str | None:
     """Feedback is published at 5 Hz, without a gap of more than 1 s"""
-    if not truth.began_low(goal) or life.left_alone(goal) or life.interrupted(goal):
+    if not truth.began_low(goal) or life.was_not_awaited(goal) or life.interrupted(goal):
         return None
     if life.ended_at(goal) < goal.accepted_at + MIN_DURATION and not why_rclpy_aborted(goal):
         return None
