@@ -12,17 +12,17 @@ from autograder.classroom.audit.run import AuditedRun, checks_without_a_killer
 from autograder.engine.exercise import Exercise
 from autograder.report.table import MARKS
 
-KILL = ("✗", "bold green")  # failed as its header says it must
-CONSEQUENCE = ("✗", "cyan")  # failed as its header says it may
-SURPRISE = "bold white on red"
+KILL = ("✗", "bold green")  # a check failed that must fail, by the submission's header
+CONSEQUENCE = ("✗", "cyan")  # a check failed that may fail, by the submission's header
+SURPRISE = "bold white on red"  # the verdict is not as the header says
 
 
 def print_progress(console: Console, run: AuditedRun, *, earlier: bool = False) -> None:
-    """Print one finished run, with each difference from the expected verdict; `earlier`: reused from a record."""
+    """Print one finished run, with each difference from the expected verdict; `earlier`: it is reused from a record."""
     surprises = run.surprises()
     mark, colour = ("✗", "red") if surprises else ("✓", "green")
     score = run.grade.score if run.grade.score is not None else "not graded"
-    facts = f"{score}/{run.grade.max_score}  {run.seconds:.0f} s{'  (kept)' if earlier else ''}"
+    facts = f"{score}/{run.grade.max_score}  {run.seconds:.0f} s{'  (reused)' if earlier else ''}"
     console.print(Text.assemble((f"{mark} ", colour), f"{run.known.name}  ", (facts, "dim")))
     for surprise in surprises:
         console.print(Text(f"    {surprise}", colour))
@@ -84,7 +84,7 @@ def _legend(runs: Sequence[AuditedRun], exercise: Exercise) -> RenderableType:
     legend = Table.grid(padding=(0, 2, 0, 0))
     for number, check in enumerate(exercise.checks, start=1):
         killers = {run.known.name for run in runs if check.id in run.known.caught_by}
-        legend.add_row(str(number), check.id, "hidden" if check.hidden else "", f"named by {len(killers)}")
+        legend.add_row(str(number), check.id, "hidden" if check.hidden else "", f"must catch {len(killers)}")
     key = Text.assemble(
         "✓ passed  ",
         ("✗", KILL[1]),
@@ -92,7 +92,7 @@ def _legend(runs: Sequence[AuditedRun], exercise: Exercise) -> RenderableType:
         ("✗", CONSEQUENCE[1]),
         " consequence  – not run  ! not judged  ",
         (" red ", SURPRISE),
-        " not as known",
+        " not as expected",
     )
     return Group(legend, key)
 

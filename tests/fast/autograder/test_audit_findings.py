@@ -80,7 +80,7 @@ def test_header_is_read_from_a_file_that_python_cannot_parse(folder):
     ("kind", "source", "complaint"),
     [
         ("correct", "import rclpy\n", "Style"),
-        ("correct", '"""Style: plain\nCaught by: ends\n"""', "said to be correct"),
+        ("correct", '"""Style: plain\nCaught by: ends\n"""', "is in correct/, but"),
         ("faulty", '"""Fault: sleeps"""', "Caught by"),
         ("faulty", '"""Fault: sleeps\nCaught by: ends\nAlso fails: ends\n"""', "twice"),
         ("hostile", '"""Attack: forks\nCaught by: ends\n"""', "Outcome"),
