@@ -17,7 +17,7 @@ from autograder.classroom.batch.folder_lock import locked
 from autograder.classroom.batch.records import GRADES, read_grades
 from autograder.classroom.batch.request import BatchRequest
 from autograder.classroom.batch.runner import BatchRunner, BatchWatcher, Graded
-from autograder.classroom.batch.seeds import Seeds, drawn_seed, seed_of_what_was_handed_in
+from autograder.classroom.batch.seeds import Seeds, drawn_seed, seed_of_submissions
 from autograder.classroom.batch.selection import require_seed
 from autograder.classroom.batch.version import commit_of
 from autograder.classroom.class_grading.progress import BatchProgress
@@ -90,7 +90,7 @@ def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> 
         dask_cluster(request.dask) if request.dask else nullcontext() as cluster,
     ):
         record = read_batch(request.out)
-        needs_grades = request.keeps_others or (request.goes_on and not record)
+        needs_grades = request.keeps_others or (request.continues_batch and not record)
         there = read_grades(request.out / GRADES) if needs_grades else []
         seeds = choose_seeds(request, record, there, works)
         before = there if request.keeps_others else []
@@ -106,10 +106,10 @@ def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> 
             isolation=isolation.label,
             jobs=cluster.size if cluster else request.jobs,
             cluster=request.dask or "",
-            shard=f"{request.shard.number}/{request.shard.of}" if request.shard else "",
+            shard=f"{request.shard.number}/{request.shard.total}" if request.shard else "",
             toolkit=commit_of(PROJECT),
             course="" if exercises_folder().is_relative_to(PROJECT) else commit_of(exercises_folder()),
-            rows=record.rows if record and request.goes_on else (),
+            rows=record.rows if record and request.continues_batch else (),
         )
         yield Setting(console, request, isolation, cluster, seeds, before, begun)
 
@@ -141,12 +141,12 @@ def choose_seeds(
     """
     if request.seed is not None:
         return Seeds(request.seed, request.seed_per_student)
-    if request.goes_on and before:
+    if request.continues_batch and before:
         return replace(before.seeds, per_student=before.seed_per_student or request.seed_per_student)
-    if request.goes_on and (one := _one_seed(grades)) is not None and not request.seed_per_student:
+    if request.continues_batch and (one := _one_seed(grades)) is not None and not request.seed_per_student:
         return Seeds(one)
     if request.shard:  # all machines must compute the same seed
-        return Seeds(seed_of_what_was_handed_in(works), request.seed_per_student)
+        return Seeds(seed_of_submissions(works), request.seed_per_student)
     return Seeds(
         drawn_seed(), request.seed_per_student, per_submission=request.watch and not request.seed_per_student
     )

@@ -76,11 +76,11 @@ class _Watch:
     def _works(self) -> Iterator[Work | None]:
         """Yield new submissions; None while there are none."""
         while True:
-            for work in self._folder.look():
+            for work in self._folder.poll():
                 if self._setting.request.selects(work.student, work.exercise):
                     yield work
                 else:
-                    self._folder.is_graded(work)
+                    self._folder.mark_graded(work)
             next_look = time.monotonic() + max(BETWEEN_LOOKS, self._folder.seconds / SHARE_OF_TIME)
             while time.monotonic() < next_look:
                 yield None
@@ -92,7 +92,7 @@ class _Watch:
         self._files.add(result)
         self._record = self._record.with_results([result])
         self._results[result.work.student, result.work.exercise] = result
-        self._folder.is_graded(result.work)
+        self._folder.mark_graded(result.work)
         self._is_written = False
         self._write_class_when_due()
 

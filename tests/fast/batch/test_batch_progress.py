@@ -123,7 +123,7 @@ def test_what_is_put_off_is_told_and_its_verdicts_are_expected_once_more(clock):
     progress.expect(checks=1, submissions=1)
     progress.verdict(VERDICT)
     first = Grade("walk_to", "anna", "namespaces", [VERDICT], reason="the machine was too busy\nfor that")
-    progress.retry_later(job("anna"), Outcome(first, "namespaces", may_end_otherwise=True))
+    progress.retry_later(job("anna"), Outcome(first, "namespaces", retry_may_succeed=True))
     assert "anna · walk_to  not graded yet" in console.file.getvalue()
     assert console.file.getvalue().endswith("the machine was too busy\n")
     assert (progress._pace.done, progress._pace.expected) == (1, 2)

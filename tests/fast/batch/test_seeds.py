@@ -78,7 +78,7 @@ def test_under_watch_who_hands_in_again_meets_other_inputs():
     "options", [{"students": ("anna",)}, {"watch": True}, {"json_file": Path("all.json")}]
 )
 def test_a_shard_is_a_part_of_the_whole_class(options):
-    with pytest.raises(UnusableRequest, match=r"--shard (takes )?a part"):
+    with pytest.raises(UnusableRequest, match=r"--shard (grades )?a part"):
         BatchRequest(Path("submitted"), Path("graded"), shard=Shard(1, 2), **options)
 
 
