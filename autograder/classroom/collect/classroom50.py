@@ -22,17 +22,17 @@ def read(download: Download, assignment: Assignment) -> Reading:
     exercises = _by_slug(assignment)
     slugs = "|".join(sorted(map(re.escape, exercises), key=len, reverse=True))
     folder = re.compile(rf"(?P<classroom>.+?)-(?P<slug>{slugs})-(?P<user>[^/]+)", re.IGNORECASE)
-    strangers: set[str] = set()
+    unknown_names: set[str] = set()
     for file, parts in without_wrapper(download, folder):
         match = folder.fullmatch(parts[0])
         if not match or len(parts) == 1:
-            strangers.add(parts[0])
+            unknown_names.add(parts[0])
             continue
         reading.add(file, parts[-1], match["user"], exercise=exercises[match["slug"].lower()])
     known = ", ".join(sorted(exercises))
     reading.unknown = [
         f"{name} is not named <classroom>-<assignment>-<user> with an assignment of {known}"
-        for name in sorted(strangers)
+        for name in sorted(unknown_names)
     ]
     return reading
 

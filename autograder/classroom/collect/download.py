@@ -21,8 +21,8 @@ from autograder.engine.hand_in import NOT_THEIRS
 from autograder.engine.submission import CLEAR_OUTPUTS, MAX_NOTEBOOK_BYTES, UnusableSubmission
 from ros_runtime.course_error import CourseError
 
-MOST_FILES = 200_000
-MOST_BYTES = 4 * 2**30  # bytes read from one download, in total
+MAX_FILES = 200_000
+MAX_TOTAL_BYTES = 4 * 2**30  # bytes read from one download, in total
 _HIDDEN = re.compile(r"\.[^.].*")  # of git, Jupyter, editors and virtual environments, and what macOS adds
 
 
@@ -65,14 +65,14 @@ class File:
 class Budget:
     """The bytes that may still be read of a download."""
 
-    left: int = MOST_BYTES
+    left: int = MAX_TOTAL_BYTES
 
     def spend(self, count: int) -> None:
         """Subtract `count` bytes; raises `UnusableDownload` when the budget is exceeded."""
         self.left -= count
         if self.left < 0:
             raise UnusableDownload(
-                f"the download holds more than {MOST_BYTES // 2**30} GiB; collect it in parts"
+                f"the download holds more than {MAX_TOTAL_BYTES // 2**30} GiB; collect it in parts"
             )
 
 
@@ -111,8 +111,8 @@ def _sorted(found: Iterator[File | str]) -> Download:
             refused.append(one)
         else:
             files.append(one)
-        if len(files) + len(refused) > MOST_FILES:
-            raise UnusableDownload(f"the download holds more than {MOST_FILES:,} files; collect it in parts")
+        if len(files) + len(refused) > MAX_FILES:
+            raise UnusableDownload(f"the download holds more than {MAX_FILES:,} files; collect it in parts")
     return Download(sorted(files, key=lambda file: file.path), refused)
 
 
@@ -123,7 +123,7 @@ def _from_zip(archive: zipfile.ZipFile, budget: Budget) -> Iterator[File | str]:
         kind = stat.S_IFMT(entry.external_attr >> 16)
         if entry.filename.endswith(("/", "\\")) or _is_junk(path):
             continue
-        if _leads_out(path):
+        if _leaves_download(path):
             yield f"{entry.filename!r} leads out of the download"
         elif kind not in (0, stat.S_IFREG):
             yield f"{entry.filename!r} is a link or a device"
@@ -141,7 +141,7 @@ def _place(name: str) -> PurePosixPath:
     return PurePosixPath(name.replace("\\", "/"))
 
 
-def _leads_out(path: PurePosixPath) -> bool:
+def _leaves_download(path: PurePosixPath) -> bool:
     return path.is_absolute() or ".." in path.parts or ":" in path.parts[0][1:2]
 
 
@@ -168,7 +168,7 @@ def _from_folder(folder: Path, budget: Budget) -> Iterator[File | str]:
             if _is_junk(path):
                 continue
             found = os.lstat(os.path.join(place, name))
-            if _leads_out(path):
+            if _leaves_download(path):
                 yield f"{name!r} leads out of the download"
             elif stat.S_ISREG(found.st_mode):
                 yield File(path, _plain_opener(Path(place) / name), budget, found.st_mtime)

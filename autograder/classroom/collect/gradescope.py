@@ -19,7 +19,7 @@ from autograder.classroom.collect.handed_in import Assignment, Reading, without_
 
 EXPECTED = "submission_metadata.yml, and folders such as submission_12345 beside it"
 METADATA = "submission_metadata.yml"
-MOST_BYTES = 100_000_000  # bytes of the metadata, which repeats every test of every submission
+MAX_METADATA_BYTES = 100_000_000  # bytes of the metadata, which repeats every test of every submission
 _FOLDER = re.compile(r"submission_(?P<number>\d{1,18})")
 
 
@@ -63,7 +63,7 @@ def _metadata(download: Download) -> Mapping[str, Any]:
             f"there is no {METADATA}; expected Gradescope's export of submissions: {EXPECTED}"
         )
     try:
-        read = yaml.load(places[0].read(MOST_BYTES), Loader=_Loader)
+        read = yaml.load(places[0].read(MAX_METADATA_BYTES), Loader=_Loader)
     except (yaml.YAMLError, Refused, ValueError, RecursionError) as error:
         raise UnusableDownload(f"{places[0].path} cannot be read: {error}") from error
     if not isinstance(read, Mapping):

@@ -11,7 +11,7 @@ from typing import Any
 from autograder.classroom.batch.collection import STUDENT
 from autograder.classroom.collect.download import Download, File, Refused
 
-LONGEST_NAME = 100  # characters
+MAX_NAME_LENGTH = 100  # characters
 
 
 @dataclass(frozen=True)
@@ -69,8 +69,8 @@ def student_name(*words: str) -> str:
     """
     joined = unicodedata.normalize("NFC", "-".join(word.strip() for word in words if word.strip()))
     name = re.sub(r"[^\w@+.,' -]", "_", joined).strip()
-    if not STUDENT.fullmatch(name) or len(name) > LONGEST_NAME:
-        raise Refused(f"{joined[:LONGEST_NAME]!r} cannot be the name of a student's folder")
+    if not STUDENT.fullmatch(name) or len(name) > MAX_NAME_LENGTH:
+        raise Refused(f"{joined[:MAX_NAME_LENGTH]!r} cannot be the name of a student's folder")
     return name
 
 

@@ -14,7 +14,7 @@ from autograder.classroom.batch.request import BatchRequest, UnusableRequest
 from autograder.classroom.batch.seeds import Seeds
 from autograder.classroom.batch.selection import require_seed
 from autograder.classroom.batch.shards import Shard
-from autograder.classroom.class_grading.setting import choose_seeds
+from autograder.classroom.class_grading.prepared_batch import choose_seeds
 from autograder.engine import grading
 from autograder.engine.arena_run import NotGraded
 from autograder.engine.exercise import Exercise, exercise_names, load_exercise

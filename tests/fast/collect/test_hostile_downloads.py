@@ -88,7 +88,7 @@ def test_a_download_of_too_many_files_or_bytes_is_refused(
 ) -> None:
     files = {f"s{i}_{i}_5_battery_service.py": PROGRAM for i in range(30)}
     made = zipped(tmp_path / "d.zip", files)
-    monkeypatch.setattr(download, "MOST_FILES", 20)
+    monkeypatch.setattr(download, "MAX_FILES", 20)
     assert course(made, "--from", "canvas", "--out", tmp_path / "s").exit_code == 2
     monkeypatch.undo()
     small = download.Budget(20)

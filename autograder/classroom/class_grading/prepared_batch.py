@@ -1,4 +1,4 @@
-"""The prepared state of a batch: its locked output folder, isolation, workers, seeds and record."""
+"""Prepares a batch: locks its output folder, starts the workers, chooses the seeds and begins its record."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ from ros_runtime.project import PROJECT
 
 
 @dataclass(frozen=True)
-class Setting:
+class PreparedBatch:
     """A prepared batch.
 
     Attributes:
         before: grades in the output folder, kept for submissions that are not graded again.
-        record: the batch's record at its beginning.
+        record: the batch's record when grading begins.
     """
 
     console: Console
@@ -48,7 +48,7 @@ class Setting:
     record: BatchRecord
 
     def graded(self, works: Iterable[Work | None]) -> Generator[Graded, None, None]:
-        """Yield each submission when it is graded (`BatchRunner.run`), and show the progress meanwhile."""
+        """Yield each submission as soon as it is graded (`BatchRunner.run`), and show the progress."""
         request, cluster = self.request, self.cluster
         with BatchProgress(self.console, elsewhere=cluster.size if cluster else 0) as progress:
             runner = BatchRunner(
@@ -71,15 +71,17 @@ class Setting:
 
 
 @contextmanager
-def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> Iterator[Setting]:
-    """Lock the output folder, start the workers and print their isolation; `works`: of the whole class.
+def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> Iterator[PreparedBatch]:
+    """Lock the output folder, start the workers and print their isolation.
+
+    `works` are the submissions of the whole class.
 
     Raises:
         FolderInUse: another process grades into the output folder.
-        HiddenChecksRefused: students could read the checks here.
-        NoCluster: there is none at the address.
-        OtherSeed: grades that are to stay were given with another seed.
-        UnusableRecord: those grades cannot be read.
+        HiddenChecksRefused: students could read the checks on this machine.
+        NoCluster: there is no cluster at the given address.
+        OtherSeed: grades that are kept have another seed.
+        UnusableRecord: grades that are kept cannot be read.
     """
     if (
         not request.dask and available_isolation().trusted
@@ -111,7 +113,7 @@ def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> 
             course="" if exercises_folder().is_relative_to(PROJECT) else commit_of(exercises_folder()),
             rows=record.rows if record and request.continues_batch else (),
         )
-        yield Setting(console, request, isolation, cluster, seeds, before, begun)
+        yield PreparedBatch(console, request, isolation, cluster, seeds, before, begun)
 
 
 def _tell(console: Console, isolation: Isolation, cluster: Cluster | None) -> None:
@@ -121,8 +123,8 @@ def _tell(console: Console, isolation: Isolation, cluster: Cluster | None) -> No
             console.print(line, style="yellow", markup=False)
     if not isolation.trusted:
         console.print(
-            f"No isolation: {isolation.reason}. Only visible checks are made and the grades are marked untrusted; run "
-            "this only with submissions you trust.",
+            f"No isolation: {isolation.reason}. Only visible checks are run, and grades are marked untrusted; grade "
+            "only submissions that you trust.",
             style="yellow",
             markup=False,
         )
@@ -153,6 +155,6 @@ def choose_seeds(
 
 
 def _one_seed(grades: Sequence[Grade]) -> int | None:
-    """The common seed of all grades; None if they differ."""
+    """Return the common seed of all grades; None if their seeds differ."""
     seeds = {grade.seed for grade in grades if grade.seed is not None}
     return seeds.pop() if len(seeds) == 1 else None
