@@ -98,7 +98,7 @@ def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> 
         before = there if request.keeps_others else []
         require_seed(before, seeds)
         isolation = cluster.isolation if cluster else available_isolation()
-        _tell(console, isolation, cluster)
+        _print_isolation(console, isolation, cluster)
         begun = BatchRecord(
             state="running",
             began=utc_now(),
@@ -116,7 +116,7 @@ def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> 
         yield PreparedBatch(console, request, isolation, cluster, seeds, before, begun)
 
 
-def _tell(console: Console, isolation: Isolation, cluster: Cluster | None) -> None:
+def _print_isolation(console: Console, isolation: Isolation, cluster: Cluster | None) -> None:
     if cluster:
         console.print(f"{cluster.size} workers, isolation: {isolation.label}", style="dim")
         for line in cluster.left_out:

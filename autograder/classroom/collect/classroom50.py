@@ -1,8 +1,8 @@
-"""Classroom 50's `gh teacher download`: a clone for each student, <classroom>-<assignment>-<user>/.
+"""Reads Classroom 50's `gh teacher download`: a clone for each student, <classroom>-<assignment>-<user>/.
 
-Format: cli/gh-teacher/internal/download/download.go of https://github.com/foundation50/classroom50; it also writes
-scores.csv beside the folders, and result.json and results.json into them. Each part of a name may have hyphens of its
-own; what stands between is found because it is the exercise's name, or given.
+Format: cli/gh-teacher/internal/download/download.go of https://github.com/foundation50/classroom50. The command also
+writes scores.csv beside the folders, and result.json and results.json into them. Each part of a folder's name may
+contain hyphens. The assignment in the middle is found because it is the exercise's name, or the --assignment given.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def read(download: Download, assignment: Assignment) -> Reading:
 
 
 def _by_slug(assignment: Assignment) -> dict[str, str]:
-    """The exercises by the assignment's name in a folder's name."""
+    """Return the exercises by the name that their assignment has in a folder's name."""
     if assignment.slug:
         return {assignment.slug.lower(): assignment.exercise}
     names = [assignment.exercise] if assignment.exercise else all_names()

@@ -24,15 +24,13 @@ def book(
     output: Annotated[Path, typer.Option(help="folder of the site")] = WORK / "site",
     execute: Annotated[
         bool,
-        typer.Option(
-            "--execute/--no-execute", help="run the chapters that have changed, each with a robot of its own"
-        ),
+        typer.Option("--execute/--no-execute", help="run the changed chapters, each with its own robot"),
     ] = True,
 ) -> None:
     """Make the chapters with their outputs, the exercises and the docs into one static site.
 
-    A chapter takes minutes to run; its outputs are kept until it or the code it runs changes. The site needs no
-    server and no network: open its index.html.
+    A chapter takes minutes to run. Its outputs are kept until the chapter or the code that it runs changes. The site
+    needs no server and no network: open its index.html.
     """
     console = Console(highlight=False)
     try:
@@ -40,14 +38,14 @@ def book(
     except KeyboardInterrupt:
         raise ended(
             console,
-            "Interrupted. Finished chapters are kept: type the same command again to continue.",
+            "Interrupted. The outputs of finished chapters are kept: type the same command again to continue.",
             COULD_NOT,
         ) from None
     console.print(f"The book: {first_page}", markup=False, soft_wrap=True)
 
 
 def _runs(console: Console) -> dict[str, NotebookNode | None]:
-    """The executed chapters, run now or taken from the cache."""
+    """Return the executed chapters, run now or read from the cache."""
     kept = KeptRuns(WORK / "runs", PROJECT)
     chapters = sorted((PROJECT / "chapters").glob("*.ipynb"))
     for number, chapter in enumerate(chapters, start=1):

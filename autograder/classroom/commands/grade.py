@@ -1,4 +1,4 @@
-"""`course grade`: grade the submissions of a class, up to gradebook and feedback pages."""
+"""`course grade`: grades the submissions of a class, and writes the gradebook and the feedback pages."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def grade(
     seed_per_student: Annotated[
         bool,
         typer.Option(
-            "--seed-per-student", help="other inputs for each student, made of the seed and the name"
+            "--seed-per-student", help="draw different inputs for each student, from the seed and the name"
         ),
     ] = False,
     json_file: Annotated[
@@ -57,7 +57,7 @@ def grade(
     shard: Annotated[
         str | None,
         typer.Option(
-            metavar="K/N", help="grade part K of N, without a gradebook; `course merge` joins the parts"
+            metavar="K/N", help="grade part K of N, without a gradebook; `course merge` merges the parts"
         ),
     ] = None,
     student: Annotated[
@@ -99,7 +99,7 @@ def grade(
             watch=watch is not None,
             record=record,
         )
-    except ValueError as error:  # of a shard, or of options that do not go together
+    except ValueError as error:  # a malformed shard, or options that exclude each other
         raise ended(console, error, UNUSABLE) from error
     try:
         status = watch_and_grade(console, request) if request.watch else grade_once(console, request)
@@ -110,7 +110,7 @@ def grade(
 
 
 def _one_folder(submitted: Path | None, watched: Path | None) -> Path:
-    """The folder to grade, which is given once."""
+    """Return the folder to grade; raises `UnusableRequest` unless exactly one is given."""
     folder = watched or submitted
     if folder is None or (watched and submitted):
         raise UnusableRequest(

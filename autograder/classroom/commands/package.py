@@ -1,4 +1,4 @@
-"""`course package`: autograders that other platforms run."""
+"""`course package`: writes autograders for other platforms."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def gradescope(
     ] = None,
     course: CourseOption = None,
 ) -> None:
-    """Make the zip that Gradescope takes as an autograder: visible checks, made as another user than the grader."""
+    """Make the zip file of a Gradescope autograder, which runs visible checks and isolates students by another user."""
     console = Console(highlight=False)
     if exercise in essay_names():
         raise ended(console, f"{exercise} has no checks: a person marks it", UNUSABLE)

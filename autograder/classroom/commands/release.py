@@ -1,4 +1,4 @@
-"""`course release`: write the students' archive, or only their notebooks."""
+"""`course release`: writes the students' archive, or only their notebooks."""
 
 from __future__ import annotations
 
@@ -51,11 +51,11 @@ def _release(console: Console, out: Path, exercises: bool, check: bool) -> None:
         for path in differing:
             console.print(f"{path.relative_to(solutions.parent)} is out of date", style="red", markup=False)
         if differing:
-            console.print("Run ./course release --exercises and commit what it changes.")
+            console.print("Run ./course release --exercises and commit the changes.")
         raise typer.Exit(COULD_NOT if differing else 0)
     if exercises:
         for path in bring_up_to_date(solutions, released):
-            console.print(f"{path.relative_to(solutions.parent)} renewed", markup=False)
+            console.print(f"{path.relative_to(solutions.parent)} updated", markup=False)
         return
     count = write_bundle(PROJECT, out)
     console.print(f"{out}: {count} files, {out.stat().st_size / 1e6:.1f} MB", markup=False)

@@ -12,7 +12,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from autograder.classroom.export.published import CannotSay, Options, Published, UnusableBatch
+from autograder.classroom.export.published import CannotExpress, Options, Published, UnusableBatch
 from autograder.classroom.export.tables import Table, csv_text, key_cell, read_number, read_table, text_cell
 
 _BEFORE_ASSIGNMENTS = (
@@ -63,7 +63,7 @@ class Gradebook:
         """Return the row of a submission.
 
         Raises:
-            CannotSay: Canvas does not know the student.
+            CannotExpress: Canvas does not know the student.
             UnusableBatch: in Canvas the assignment has other points.
         """
         exercise, points = published.exercise, published.max_score
@@ -90,9 +90,9 @@ class Gradebook:
         return [name for name in _BEFORE_ASSIGNMENTS if self.students.index(name) is not None]
 
     def _person(self, student: str) -> list[str]:
-        """These columns for a student; raises `CannotSay` if the student is not in Canvas' roster."""
+        """These columns for a student; raises `CannotExpress` if the student is not in Canvas' roster."""
         if _ANONYMOUS.fullmatch(student):
-            raise CannotSay(
+            raise CannotExpress(
                 "an anonymous download was collected, and Canvas' gradebook takes no anonymous grades: show the names "
                 "there, then collect and grade a new download"
             )

@@ -11,12 +11,12 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from autograder.classroom.export.published import (
-    CannotSay,
+    CannotExpress,
     Options,
     number,
     printable,
     publish,
-    words_for_students,
+    text_without_score,
 )
 from autograder.engine.verdict import Grade
 
@@ -70,10 +70,10 @@ def render(grade: Grade, options: Options) -> str:
     """Return the file for a graded submission.
 
     Raises:
-        CannotSay: it has no score, or one with half points.
+        CannotExpress: it has no score, or one with half points.
     """
     if grade.status != "graded":
-        raise CannotSay(words_for_students(grade))
+        raise CannotExpress(text_without_score(grade))
     published = publish(grade, options.hidden)
     tests = [
         Test(
@@ -113,7 +113,7 @@ def _classroom(options: Options) -> str:
 
 def _whole(points: float) -> int:
     if not float(points).is_integer():
-        raise CannotSay(
+        raise CannotExpress(
             f"{number(points)} points, but Classroom 50 takes only whole points: enter the grade by hand"
         )
     return int(points)

@@ -14,7 +14,7 @@ from autograder.atomic_file import write_atomically
 from autograder.classroom.batch.records import GRADES, UNREADABLE
 from autograder.classroom.export import canvas, classroom50, grades_csv, gradescope, junit, moodle
 from autograder.classroom.export.published import (
-    CannotSay,
+    CannotExpress,
     Options,
     Published,
     UnusableBatch,
@@ -90,7 +90,7 @@ def _each(writer: Any, grades: Sequence[Grade], options: Options) -> Export:
         why = why_no_score(grade)
         try:
             files[_place(writer, grade)] = writer.render(grade, options)
-        except CannotSay as error:
+        except CannotExpress as error:
             why = why or str(error)
         if why:
             left_out.append(LeftOut(grade.student, grade.exercise, why, not why_no_score(grade)))
@@ -115,7 +115,7 @@ def _tables(
         for published in group:
             try:
                 rows.append(class_list.cells(published))
-            except CannotSay as error:
+            except CannotExpress as error:
                 left_out.append(LeftOut(published.student, exercise, str(error), True))
         if rows:
             files[_table_file(exercise)] = class_list.text(exercise, published.max_score, rows)

@@ -14,8 +14,8 @@ from autograder.classroom.export.published import (
     Options,
     printable,
     publish,
+    text_without_score,
     why_no_score,
-    words_for_students,
 )
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.table import verdict_text
@@ -61,7 +61,7 @@ class Results(BaseModel):
 def render(grade: Grade, options: Options) -> str:
     """Return the file for a grade. Hidden checks keep their titles there, and only instructors see them."""
     if why_no_score(grade):
-        return Results(output=words_for_students(grade)).text()
+        return Results(output=text_without_score(grade)).text()
     published = publish(grade, options.hidden)
     tests = [_test(check, str(i), "visible") for i, check in enumerate(published.checks, start=1)]
     tests += [_test(check, f"H{i}", "hidden") for i, check in enumerate(published.hidden, start=1)]

@@ -20,7 +20,7 @@ from autograder.report.table import verdict_text
 EMAIL, ID_NUMBER = ("useremail", "email address", "email"), ("useridnumber", "id number", "idnumber")
 _PARTICIPANT = re.compile(r"(?P<word>.*\D)(?P<number>\d+)\s*")  # "Participant 123456", in any language
 _TIME = re.compile(r"-|.*\d\d? ?[:.hH] ?\d\d.*", re.DOTALL)  # "-" is a grade that was never changed
-_LONGEST_FEEDBACK = 1000  # characters of one check
+_MAX_FEEDBACK_LENGTH = 1000  # characters of one check
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class ClassList:
         """Return the row of a submission.
 
         Raises:
-            CannotSay: Moodle does not know the student.
+            CannotExpress: Moodle does not know the student.
             UnusableBatch: in Moodle the assignment has other points.
         """
         words = text_cell(feedback(published))
@@ -76,7 +76,7 @@ class ClassList:
         return csv_text([self.key, exercise, f"{exercise} feedback"], rows)
 
     def _row_of(self, student: str) -> Sequence[str]:
-        """A student's row of the roster; raises `CannotSay` if there is none."""
+        """A student's row of the roster; raises `CannotExpress` if there is none."""
         assert self.roster
         index = self.roster.index
         if not self.worksheet:
@@ -169,7 +169,7 @@ def feedback(published: Published) -> str:
     """Return what a student reads beside the points, as HTML: the checks that did not pass, and the hidden sum."""
     lines = [
         f"<b>{_escaped(check.title)}</b> ({check.points:g} of {check.max_points:g} points)<br>"
-        f"{_escaped(verdict_text(check, _LONGEST_FEEDBACK))}"
+        f"{_escaped(verdict_text(check, _MAX_FEEDBACK_LENGTH))}"
         for check in published.checks
         if check.points < check.max_points
     ]

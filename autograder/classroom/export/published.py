@@ -21,7 +21,7 @@ TO_MARK = "This has not been marked by a person yet."
 _UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
 
 
-class CannotSay(Exception):
+class CannotExpress(Exception):
     """A platform's format cannot express this grade; the message says why, and what to do."""
 
 
@@ -82,7 +82,7 @@ def why_no_score(grade: Grade) -> str:
     return {"graded": "", "not graded": "not graded", "to mark": "not marked yet"}[grade.status]
 
 
-def words_for_students(grade: Grade) -> str:
+def text_without_score(grade: Grade) -> str:
     """Return the text for students in place of a score; the grader's own reason could name a hidden check."""
     return TO_MARK if grade.status == "to mark" else NOT_GRADED
 

@@ -14,9 +14,9 @@ from pathlib import Path
 
 from charset_normalizer import from_bytes
 
-from autograder.classroom.export.published import CannotSay, UnusableBatch, number, printable
+from autograder.classroom.export.published import CannotExpress, UnusableBatch, number, printable
 
-MOST_BYTES = 20_000_000  # of a roster
+MAX_ROSTER_BYTES = 20_000_000  # of a roster
 # Names the separator; Excel reads it, and some programs write it.
 _SEPARATOR_LINE = re.compile(r"sep=([,;\t])\r?\n", re.IGNORECASE)
 _WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # first bytes of workbooks, new and old formats
@@ -59,7 +59,7 @@ class Table:
         the rest of the name has to resemble that row's cell in a column of `names`, since any name may end in a number.
 
         Raises:
-            CannotSay: no row matches, more than one does, or the number belongs to another name.
+            CannotExpress: no row matches, more than one does, or the number belongs to another name.
         """
         wanted = [(column, student) for column in columns if column is not None]
         name, its_number = _collected(student)
@@ -68,16 +68,16 @@ class Table:
         for column, value in wanted:
             found = [row for row in self.rows if _cell_value(row[column]) == value]
             if len(found) > 1:
-                raise CannotSay(
+                raise CannotExpress(
                     f"{value} stands in {len(found)} rows of the roster, column {self.heading[column]}"
                 )
             called = [found[0][column] for column in names if column is not None] if found else []
-            if called and value != student and not any(_alike(name, one) for one in called):
-                raise CannotSay(f"number {value} is {called[0]}'s in the roster: enter it by hand")
+            if called and value != student and not any(_are_similar(name, one) for one in called):
+                raise CannotExpress(f"number {value} is {called[0]}'s in the roster: enter it by hand")
             if found:
                 return found[0]
         looked_in = ", ".join(dict.fromkeys(self.heading[column] for column, _ in wanted))
-        raise CannotSay(f"the roster has no such student (looked in {looked_in})")
+        raise CannotExpress(f"the roster has no such student (looked in {looked_in})")
 
 
 def read_table(path: Path) -> Table:
@@ -87,9 +87,9 @@ def read_table(path: Path) -> Table:
         UnusableBatch: it is no such file.
     """
     try:
-        if path.stat().st_size > MOST_BYTES:
+        if path.stat().st_size > MAX_ROSTER_BYTES:
             raise UnusableBatch(
-                f"{path} has more than {MOST_BYTES // 1_000_000} MB; expected a table of a class"
+                f"{path} has more than {MAX_ROSTER_BYTES // 1_000_000} MB; expected a table of a class"
             )
         content = path.read_bytes()
         if content.startswith(_WORKBOOKS):
@@ -99,10 +99,12 @@ def read_table(path: Path) -> Table:
         text, encoding = _decoded(content)
     except (OSError, UnicodeDecodeError) as error:
         raise UnusableBatch(f"{path} cannot be read: {error}") from error
-    told = _SEPARATOR_LINE.match(text)
-    text = text[told.end() :] if told else text
+    separator = _SEPARATOR_LINE.match(text)
+    text = text[separator.end() :] if separator else text
     try:
-        delimiter = told[1] if told else max(",;\t", key=lambda one: len(next(_cells(text, one), [])))
+        delimiter = (
+            separator[1] if separator else max(",;\t", key=lambda one: len(next(_cells(text, one), [])))
+        )
         lines = [line for line in _cells(text, delimiter) if any(map(str.strip, line))]
     except csv.Error as error:
         raise UnusableBatch(f"{path} is not a CSV file: {error}") from error
@@ -154,10 +156,10 @@ def key_cell(key: str) -> str:
     """Return the key by which a platform finds a student, unchanged.
 
     Raises:
-        CannotSay: a spreadsheet would read the key as a formula, and a changed key would not match.
+        CannotExpress: a spreadsheet would read the key as a formula, and a changed key would not match.
     """
     if text_cell(key) != key or "\n" in key:
-        raise CannotSay(
+        raise CannotExpress(
             f"{key!r} would be a formula in a spreadsheet, and is needed as it is: enter it by hand"
         )
     return key
@@ -186,7 +188,7 @@ def _collected(student: str) -> tuple[str, str]:
     return (match[1], match[2]) if match else ("", "")
 
 
-def _alike(one: str, other: str) -> bool:
+def _are_similar(one: str, other: str) -> bool:
     """Whether two spellings of a name share most of their letters, in any order."""
     first, second = ("".join(sorted(filter(str.isalnum, name.casefold()))) for name in (one, other))
     return SequenceMatcher(None, first, second).ratio() > 0.6

@@ -20,8 +20,10 @@ from autograder.engine.notebook import written_by
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.table import verdict_text
 
-UNJUDGED = "unjudged_cells"  # resources["nbgrader"] key: grade_ids that have no verdict
-ON_PAPER = "Your marker saw this drawn."  # for the feedback page, from which nbgrader takes every drawing
+UNJUDGED_KEY = "unjudged_cells"  # resources["nbgrader"] key: grade_ids that have no verdict
+DRAWING_REPLACEMENT = (
+    "Your marker saw this drawn."  # for the feedback page, from which nbgrader takes every drawing
+)
 
 
 class NotGradedError(Exception):
@@ -42,14 +44,14 @@ class VerdictOutputs(NbGraderPreprocessor):
         names = resources["nbgrader"]
         grade = read_grade(Path(self.records), names["student"], names["assignment"])
         verdicts = verdicts_by_cell(grade)
-        names[UNJUDGED] = []
+        names[UNJUDGED_KEY] = []
         for count, cell in enumerate((cell for cell in nb.cells if cell.cell_type == "code"), start=1):
             if not is_grade(cell) or is_solution(cell):
                 continue
             cell.execution_count = count
             verdict = verdicts.get(cell.metadata.nbgrader.grade_id)
             if verdict is None:
-                names[UNJUDGED].append(cell.metadata.nbgrader.grade_id)
+                names[UNJUDGED_KEY].append(cell.metadata.nbgrader.grade_id)
             cell.outputs = outputs(verdict, float(cell.metadata.nbgrader.points), count)
         return nb, resources
 
@@ -109,7 +111,9 @@ class EssayPictures(NbGraderPreprocessor):
         svg = picture({file: text for _, files in written for file, text in files.items() if file in cells})
         if svg and cells:
             first = next(iter(cells.values()))
-            first.outputs = [new_output("display_data", data={"image/svg+xml": svg, "text/plain": ON_PAPER})]
+            first.outputs = [
+                new_output("display_data", data={"image/svg+xml": svg, "text/plain": DRAWING_REPLACEMENT})
+            ]
         return nb, resources
 
 
@@ -120,7 +124,7 @@ class UnjudgedCells(NbGraderPreprocessor):
         """Mark the cells in the gradebook as needing manual grading."""
         names = resources["nbgrader"]
         with Gradebook(names["db_url"]) as gradebook:
-            for cell in names[UNJUDGED]:
+            for cell in names[UNJUDGED_KEY]:
                 grade = gradebook.find_grade(cell, names["notebook"], names["assignment"], names["student"])
                 grade.auto_score = None
                 grade.needs_manual_grade = True

@@ -36,12 +36,12 @@ class Container:
         """The file that Gradescope reads."""
         return self.root / "results" / FILE
 
-    def forget_results(self) -> None:
+    def remove_results(self) -> None:
         """Remove the results of an earlier run, so that its score is not attributed to this one."""
         self.results.parent.mkdir(parents=True, exist_ok=True)
         self.results.unlink(missing_ok=True)
 
-    def close_to_others(self, *more: Path) -> None:
+    def restrict_to_root(self, *more: Path) -> None:
         """Make uploads, results, submission metadata and `more` accessible to root only."""
         for folder in (self.submission, self.results.parent, *more):
             if folder.is_dir():

@@ -19,7 +19,7 @@ Sources = Mapping[str, str]
 
 FOLDER = Path("cache/drawings")
 DRAWN = ("failed", "error")
-MOST_RUNS = 3  # drawn of one check
+MAX_DRAWN_RUNS = 3  # drawn of one check
 
 DrawnRuns = Mapping[str, Sequence[str]]  # SVG of the runs that a check was judged on, by the check's id
 
@@ -89,7 +89,7 @@ def draw(transcripts: Sequence[Transcript]) -> list[str]:
         ValueError: nothing happened in one.
     """
     drawn: list[str] = []
-    for transcript in transcripts[:MOST_RUNS]:
+    for transcript in transcripts[:MAX_DRAWN_RUNS]:
         title = transcript.scenario.replace("_", " ")
         drawn += [transcript_svg(transcript, title), *motion_svgs(transcript, title)]
     return drawn

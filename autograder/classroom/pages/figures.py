@@ -12,7 +12,7 @@ from autograder.engine.verdict import CheckVerdict, Grade
 TENTHS = [f"{10 * tenth}–{10 * tenth + 9}" for tenth in range(10)]
 FULL = "100"
 NEEDS_HELP = 0.6  # share of the points; submissions below it are listed
-MOST_TOPICS = 3  # of one student's submission
+MAX_TOPICS = 3  # of one student's submission
 
 
 @dataclass(frozen=True)
@@ -138,7 +138,7 @@ def _hard_check(verdicts: Sequence[CheckVerdict]) -> HardCheck:
 def _topics(grade: Grade) -> NeedsHelp:
     """The first failed checks, because later checks of an exercise build upon earlier ones."""
     failed = [verdict for verdict in grade.checks if lost(verdict)]
-    return NeedsHelp(grade, failed[:MOST_TOPICS], len(failed[MOST_TOPICS:]))
+    return NeedsHelp(grade, failed[:MAX_TOPICS], len(failed[MAX_TOPICS:]))
 
 
 def lost(verdict: CheckVerdict) -> bool:

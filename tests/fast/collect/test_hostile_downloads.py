@@ -39,7 +39,7 @@ def test_names_that_lead_elsewhere_are_refused_and_the_rest_is_collected(tmp_pat
     before = everything(tmp_path)
     done = course(made, "--from", "canvas", "--out", tmp_path / "in/s")
     assert done.exit_code == 1
-    assert "leads out of the download" in said(done)
+    assert "is a path outside the download" in said(done)
     assert everything(tmp_path) - before == {"in/s/lee-1/battery_service/battery_service.py"}
 
 
