@@ -32,8 +32,8 @@ def choose(files: Sequence[HandedIn], assignment: Assignment) -> Choice:
         named = names.of(one.name) or (names.any_of(only, one.name) if only else None)
         if not named and one.file.path.suffix.lower() in ARCHIVES:
             choice.left_aside.append(
-                f"{one.file.path} is an archive, and archives are not opened: unpack the download and it, and "
-                f"put its files beside it ({one.student})"
+                f"{one.file.path} is an archive, and archives are not opened: unpack the download, then "
+                f"this archive into the same folder ({one.student})"
             )
         elif not named:
             choice.left_aside.append(f"{one.file.path} is not named like an exercise's file ({one.student})")

@@ -1,7 +1,7 @@
 """Gradescope's results.json for one submission.
 
-Format: https://gradescope-autograders.readthedocs.io/en/latest/specs/, "Output Format". A file without a score, and
-without tests that have one, gives the submission no score.
+Format: https://gradescope-autograders.readthedocs.io/en/latest/specs/, "Output Format". If neither the file nor its
+tests have a score, Gradescope gives the submission no score.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ FILE = "results.json"
 
 
 class Test(BaseModel):
-    """One entry of the list of tests. Its text is never read as HTML."""
+    """One entry of the list of tests. Gradescope shows its text as plain text, never as HTML."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -41,7 +41,7 @@ class Test(BaseModel):
 
 
 class Results(BaseModel):
-    """The whole file. What the run printed on stdout is for instructors: students' programs have no part in it."""
+    """The whole file. Only instructors see the grader's stdout, which never contains a student's output."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -59,7 +59,7 @@ class Results(BaseModel):
 
 
 def render(grade: Grade, options: Options) -> str:
-    """Return the file for a grade. Hidden checks keep their titles there, and only instructors see them."""
+    """Return the file for a grade. It has the titles of hidden checks, which Gradescope shows only to instructors."""
     if why_no_score(grade):
         return Results(output=text_without_score(grade)).text()
     published = publish(grade, options.hidden)

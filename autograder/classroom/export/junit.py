@@ -1,7 +1,7 @@
 """JUnit XML for one submission, as CodeGrade, Submitty, GitLab, Artemis and Jenkins read it.
 
-The format has no official specification; this is the common part of Jenkins' junit-10.xsd and the readers above. A
-submission without a score is an <error>, which none of them counts as a failed test.
+The format has no official specification; this is the common part of Jenkins' junit-10.xsd and of what these programs
+read. A submission without a score is an <error>, which none of them counts as a failed test.
 """
 
 from __future__ import annotations

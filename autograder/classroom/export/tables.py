@@ -17,9 +17,9 @@ from charset_normalizer import from_bytes
 from autograder.classroom.export.published import CannotExpress, UnusableBatch, number, printable
 
 MAX_ROSTER_BYTES = 20_000_000  # of a roster
-# Names the separator; Excel reads it, and some programs write it.
+# A first line that names the separator: Excel reads it, and some programs write it.
 _SEPARATOR_LINE = re.compile(r"sep=([,;\t])\r?\n", re.IGNORECASE)
-_WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # first bytes of workbooks, new and old formats
+_WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # first bytes of workbooks, in the new and the old format
 # First characters of a formula; some spreadsheets accept the full-width forms, too.
 _FORMULA = tuple("=+-@＝＋－＠")
 
@@ -55,11 +55,12 @@ class Table:
     ) -> Sequence[str]:
         """Return the row in which one of the columns has the student's name.
 
-        `course collect` appends the platform's number to a name. The number is looked up in the column `numbers`; then
-        the rest of the name has to resemble that row's cell in a column of `names`, since any name may end in a number.
+        `course collect` appends the platform's number to a name. This number is looked up in the column `numbers`. The
+        rest of the name must resemble the cell of the same row in a column of `names`, because any name may end in a
+        number.
 
         Raises:
-            CannotExpress: no row matches, more than one does, or the number belongs to another name.
+            CannotExpress: no row or more than one row matches, or the number belongs to another name.
         """
         wanted = [(column, student) for column in columns if column is not None]
         name, its_number = _collected(student)
@@ -69,22 +70,24 @@ class Table:
             found = [row for row in self.rows if _cell_value(row[column]) == value]
             if len(found) > 1:
                 raise CannotExpress(
-                    f"{value} stands in {len(found)} rows of the roster, column {self.heading[column]}"
+                    f"{value} is in {len(found)} rows of the roster, column {self.heading[column]}"
                 )
             called = [found[0][column] for column in names if column is not None] if found else []
             if called and value != student and not any(_are_similar(name, one) for one in called):
-                raise CannotExpress(f"number {value} is {called[0]}'s in the roster: enter it by hand")
+                raise CannotExpress(
+                    f"number {value} belongs to {called[0]} in the roster: enter the grade by hand"
+                )
             if found:
                 return found[0]
         looked_in = ", ".join(dict.fromkeys(self.heading[column] for column, _ in wanted))
-        raise CannotExpress(f"the roster has no such student (looked in {looked_in})")
+        raise CannotExpress(f"the roster has no such student (searched columns: {looked_in})")
 
 
 def read_table(path: Path) -> Table:
-    """Read a CSV file that a platform gave out.
+    """Read a CSV file that a platform exported.
 
     Raises:
-        UnusableBatch: it is no such file.
+        UnusableBatch: the file is not a CSV file, is empty or too large, or cannot be read.
     """
     try:
         if path.stat().st_size > MAX_ROSTER_BYTES:
@@ -94,7 +97,7 @@ def read_table(path: Path) -> Table:
         content = path.read_bytes()
         if content.startswith(_WORKBOOKS):
             raise UnusableBatch(
-                f"{path} is a workbook of a spreadsheet program: save it there as “CSV UTF-8”"
+                f"{path} is a workbook of a spreadsheet program: open it and save it as “CSV UTF-8”"
             )
         text, encoding = _decoded(content)
     except (OSError, UnicodeDecodeError) as error:
@@ -126,7 +129,7 @@ def _decoded(content: bytes) -> tuple[str, str]:
     """
     if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return content.decode("utf-16"), ""
-    if 0 in content[:2]:  # the same without its mark
+    if 0 in content[:2]:  # UTF-16 without a byte order mark
         return content.decode("utf-16-be" if content[0] == 0 else "utf-16-le"), ""
     try:
         return content.decode("utf-8-sig"), ""
@@ -160,15 +163,15 @@ def key_cell(key: str) -> str:
     """
     if text_cell(key) != key or "\n" in key:
         raise CannotExpress(
-            f"{key!r} would be a formula in a spreadsheet, and is needed as it is: enter it by hand"
+            f"{key!r} would be a formula in a spreadsheet, and must not be changed: enter the grade by hand"
         )
     return key
 
 
 def read_number(cell: str) -> float | None:
-    """Return the number in a cell, written as in any language: 1.000,50 and 1,000.50; None if there is none.
+    """Return the number in a cell, in any language's notation, such as 1.000,50 or 1,000.50; None if there is none.
 
-    As in Canvas' import, the last comma or point stands before the decimals.
+    As in Canvas' import, the last comma or point is the decimal separator.
     """
     digits = re.sub(r"[\s'’]", "", cell).replace("٫", ",")
     if not re.fullmatch(r"\d+([.,]\d*)*", digits):
@@ -178,7 +181,7 @@ def read_number(cell: str) -> float | None:
 
 
 def _cell_value(cell: str) -> str:
-    """The text of a cell, without the apostrophe that makes Excel treat it as text."""
+    """Return the text of a cell, without the apostrophe that makes Excel treat the cell as text."""
     return cell.strip().removeprefix("'")
 
 
