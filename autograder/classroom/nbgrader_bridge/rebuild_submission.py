@@ -24,7 +24,7 @@ def rebuild_submission(
 ) -> NotebookNode:
     """Return a copy of the release notebook with the sources of the files `names` in its solution cells.
 
-    Without sources the cells quote `problem`, the reason why the submission could not be read.
+    If `sources` is None, the cells quote `problem`, the reason why the submission could not be read.
     """
     notebook = copy.deepcopy(release)
     for name in names:
@@ -49,5 +49,5 @@ def _shown(sources: Mapping[str, str] | None, name: str, problem: str) -> str:
         return "# This file was not handed in."
     source = sources[name]
     if len(source) > MAX_SOURCE_LENGTH:
-        return f"{source[:MAX_SOURCE_LENGTH]}\n# … the file goes on; all of it was graded"
+        return f"{source[:MAX_SOURCE_LENGTH]}\n# … only the beginning is shown; the whole file was graded"
     return source

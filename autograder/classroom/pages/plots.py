@@ -1,6 +1,6 @@
-"""Plots on the pages of a class, each as SVG with the same facts in words.
+"""Plots on the pages of a class, each an SVG with a text alternative.
 
-They show scores as bars and, of a run, the robot's speed over time with the events of its goals, and its path.
+They show the scores as bars and, for a run, the robot's speed over time with the events of its goals, and its path.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ from autograder.authoring.evidence.transcript import Transcript
 from ros_runtime.drawing.xml_text import escape
 from ros_runtime.message_constants import GoalStatus, name_of
 
-# Inches around the panel; fixed, because measuring the texts is slow.
+# Margins around the panel, in inches; they are fixed, because measuring the texts is slow.
 LEFT, RIGHT, BELOW, ABOVE = 0.7, 0.2, 0.55, 0.3
 CURVE_COLOUR, EVENT_COLOUR, FEEDBACK_COLOUR = "#1f5fa8", "#b34700", "#2c7a3f"
 _STYLE = {"svg.fonttype": "none", "text.parse_math": False, "font.size": 9, "axes.edgecolor": "#999999"}
 _NO_METADATA = dict.fromkeys(("Date", "Creator", "Format", "Type"))
-MIN_DRAWN_MOTION = 0.1  # m; a robot that stands sways by less
-MIN_AXIS_SPEED = 0.2  # m/s that the axis shows
+MIN_DRAWN_MOTION = 0.1  # m; a standing robot sways less
+MIN_AXIS_SPEED = 0.2  # m/s, at the top of the speed axis at least
 MAX_EVENTS = 12
-ROW_HEIGHT = 11.0  # pt, of a moment's words above the panel
+ROW_HEIGHT = 11.0  # pt, of an event's label above the panel
 MAX_GOAL_DISTANCE = (
-    20.0  # m; goals farther from the origin are not drawn, or the path would be too small to see
+    20.0  # m from the origin; farther goals are not drawn, because the path would be too small to see
 )
 
 
@@ -48,14 +48,14 @@ class Plot:
 
 @contextmanager
 def plotted(title: str, words: str, *, width: float, height: float, pad: float = 6.0) -> Iterator[Plot]:
-    """Draw a plot in a `with` block; the same one has the same bytes.
+    """Draw a plot in a `with` block; the same plot has the same bytes.
 
     Args:
-        title: above the panel.
-        words: its text alternative.
-        width: of the drawing, in.
-        height: of the drawing, in.
-        pad: between title and panel, pt.
+        title: the title above the panel.
+        words: the text alternative.
+        width: width of the drawing, in inches.
+        height: height of the drawing, in inches.
+        pad: distance between title and panel, in pt.
     """
     with matplotlib.rc_context({**_STYLE, "svg.hashsalt": f"{title} {words}"}):
         plot = Plot(width, height, ABOVE + pad / 72)
@@ -75,7 +75,7 @@ def plotted(title: str, words: str, *, width: float, height: float, pad: float =
 
 
 def bars_svg(numbers: Mapping[str, int], *, title: str, across: str, up: str) -> str:
-    """Draw whole numbers as bars by their labels, from left to right; `across` and `up` name the axes."""
+    """Draw a bar for each label, from left to right; `across` and `up` are the titles of the axes."""
     said = ", ".join(f"{label}: {number}" for label, number in numbers.items() if number)
     words = f"{up} by {across}: {said or 'none'}."
     with plotted(title, words, width=1.0 + 0.55 * len(numbers), height=2.3) as plot:
@@ -93,8 +93,8 @@ def motion_svgs(transcript: Transcript, title: str) -> list[str]:
     if not truth or math.dist(*_corners(transcript)) < MIN_DRAWN_MOTION:
         return []
     return [
-        _speed_svg(transcript, f"How fast the robot was: {title}"),
-        _path_svg(transcript, f"Where the robot went, from above: {title}"),
+        _speed_svg(transcript, f"Speed of the robot: {title}"),
+        _path_svg(transcript, f"Path of the robot, from above: {title}"),
     ]
 
 
@@ -147,7 +147,7 @@ def _path_svg(transcript: Transcript, title: str) -> str:
         middle = sum(plot.axes.get_xlim()) / 2
         for number, (label, x, y) in enumerate(places):
             plot.axes.plot(x, y, "o", color=EVENT_COLOUR)
-            # Above and below in turn: neighbours are often close.
+            # Labels are above and below in turn, because neighbours are often close to each other.
             offset = (-6 if x > middle else 6, -13 if number % 2 else 6)
             side = "right" if x > middle else "left"
             plot.axes.annotate(label, (x, y), offset, textcoords="offset points", ha=side, color=EVENT_COLOUR)
@@ -161,7 +161,7 @@ def _corners(transcript: Transcript) -> tuple[tuple[float, float], tuple[float, 
 
 
 def _moments(transcript: Transcript) -> Iterator[tuple[str, float]]:
-    """Return the events of goals and robot, in words, with their times (s)."""
+    """Yield a label for each event of goals and robot, with the event's time (s)."""
     for event in transcript.events:
         match event:
             case ev.GoalSent(t=t, goal=goal):
@@ -175,9 +175,9 @@ def _moments(transcript: Transcript) -> Iterator[tuple[str, float]]:
 
 
 def _goal_places(transcript: Transcript) -> Iterator[tuple[str, float, float]]:
-    """Where (x, y in m) the goals that name a pose on the ground want the robot."""
+    """Yield the label and the target (x, y in m) of each goal that has a pose."""
     for sent in transcript.all(ev.GoalSent)[:MAX_EVENTS]:
         stamped = getattr(sent.request, "target_pose", None) or getattr(sent.request, "pose", None)
         position = getattr(getattr(stamped, "pose", None), "position", None)
-        if position is not None and math.hypot(position.x, position.y) < MAX_GOAL_DISTANCE:  # NaN is not
+        if position is not None and math.hypot(position.x, position.y) < MAX_GOAL_DISTANCE:  # False for NaN
             yield f"goal “{sent.goal}”", position.x, position.y
