@@ -9,7 +9,13 @@ import typer
 from rich.console import Console
 
 from autograder.recording.replay.film import film, require_known_format
-from autograder.recording.replay.recording import NoRecording, Recording, Span, require_postures, span_of
+from autograder.recording.replay.recording import (
+    Recording,
+    Span,
+    UnusableRecording,
+    require_postures,
+    span_of,
+)
 from autograder.recording.replay.text import line, time_line, title
 from course_cli.ending import COULD_NOT, UNUSABLE, ended
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
@@ -69,11 +75,11 @@ def _in_the_browser(console: Console, recording: Recording, span: Span, port: in
             recording,
             span,
             port,
-            ready=lambda url: console.print(f"view: {url}   (Ctrl-C ends it)", markup=False),
-            tell=lambda moment: console.print(line(moment)),
+            on_ready=lambda url: console.print(f"view: {url}   (Ctrl-C ends it)", markup=False),
+            on_moment=lambda moment: console.print(line(moment)),
         )
     except ImportError as error:
         reason = "the web view needs MuJoCo 4, which needs Python 3.11 or newer; use --film or --text"
-        raise ended(console, NoRecording(reason), COULD_NOT) from error
+        raise ended(console, UnusableRecording(reason), COULD_NOT) from error
     except KeyboardInterrupt:
         return
