@@ -15,7 +15,12 @@ from geometry_msgs.msg import TransformStamped
 from ros_runtime.messages import message_type
 
 _SEPARATOR = "=" * 80
-_NAMES = {"boolean": "bool", "double": "float64", "float": "float32", "octet": "byte"}  # IDL's → .msg's
+_NAMES = {
+    "boolean": "bool",
+    "double": "float64",
+    "float": "float32",
+    "octet": "byte",
+}  # names of types in IDL and in .msg files
 _SEQUENCE = re.compile(r"sequence<(.+?)(?:, (\d+))?>")
 _ARRAY = re.compile(r"(.+)\[(\d+)\]")
 _BOUNDED_TEXT = re.compile(r"(w?string)<(\d+)>")

@@ -14,7 +14,7 @@ METADATA = "course_recording"
 
 EVENTS = "/arena/events"  # descriptions of the events (rcl_interfaces/Log)
 ROSOUT = "/rosout"  # the program's output, and the verdicts (rcl_interfaces/Log)
-CHECKS = "course.checks"  # name of the "logger" of verdicts
+CHECKS = "course.checks"  # the logger's name in the log messages of verdicts
 
 
 @dataclass(frozen=True)

@@ -54,7 +54,7 @@ class _File:
         try:
             data = serialize(entry.message)
             self._schema(type_name(entry.message))
-        except Exception:  # the message cannot be serialized, and the others shall still be written
+        except Exception:  # this message cannot be serialized; the others are still written
             logging.getLogger(__name__).debug("left out: a message on %s", entry.topic, exc_info=True)
             self._leave_out(entry.t)
             return

@@ -124,7 +124,7 @@ def _of_interfaces(event: Any) -> tuple[int, str] | None:
         case ev.ResultSent(goal=goal):
             return INFO, f"result of “{goal}” sent"
         case ev.ResultForgotten(goal=goal):
-            return INFO, f"result of “{goal}” forgotten"
+            return INFO, f"the grader's server drops the result of “{goal}”"
         case ev.Unanswered(what=what, id=name, waited=waited):
             return WARN, f"no response to the {what} “{name}” within {waited:.1f} s"
     return None

@@ -69,7 +69,7 @@ class Recorder:
                 continue
             if size + len(content) > MAX_SUBMISSION_BYTES:
                 logging.getLogger(__name__).warning(
-                    "no recording %s: those of one submission are too large", name
+                    "no recording %s: the recordings of this submission are too large", name
                 )
                 continue
             size += len(content)
@@ -92,11 +92,11 @@ class Recorder:
             "exercise": grade.exercise,
             "student": grade.student,
             "scenario": scenario.name,
-            "namespace": scenario.namespace,  # of robot and student
+            "namespace": scenario.namespace,  # of the robot and the student's node
             "params": json.dumps(run.params),
             "seed": str(grade.seed),
             "scale": f"{run.scale:g}",  # how much faster than real time the arena's clock ran
-            "end": f"{run.end:.6f}",  # s on that clock
+            "end": f"{run.end:.6f}",  # s on the arena's clock
             "scene": scene_of(run),  # "" without a robot
             "shows_hidden_checks": "yes" if self._shows_hidden else "no",
         }

@@ -8,7 +8,7 @@ from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from autograder.classroom.audit.run import AuditedRun, checks_without_a_killer
+from autograder.classroom.audit.run import AuditedRun, unproved_checks
 from autograder.engine.exercise import Exercise
 from autograder.report.table import MARKS
 
@@ -59,8 +59,8 @@ def figures(runs: Sequence[AuditedRun], exercise: Exercise) -> list[str]:
         f"unexpected failures: {_unexpected(others)} in {len(others)} runs of faulty and hostile ones",
         f"not graded: {sum(run.grade.status == 'not graded' for run in runs)} of {len(runs)}",
     ]
-    if unproved := checks_without_a_killer(runs, exercise):
-        lines.append(f"checks without a killer: {', '.join(unproved)}")
+    if unproved := unproved_checks(runs, exercise):
+        lines.append(f"checks that caught no fault: {', '.join(unproved)}")
     return lines
 
 
@@ -83,14 +83,16 @@ def _cell(run: AuditedRun, check_id: str) -> Text:
 def _legend(runs: Sequence[AuditedRun], exercise: Exercise) -> RenderableType:
     legend = Table.grid(padding=(0, 2, 0, 0))
     for number, check in enumerate(exercise.checks, start=1):
-        killers = {run.known.name for run in runs if check.id in run.known.caught_by}
-        legend.add_row(str(number), check.id, "hidden" if check.hidden else "", f"must catch {len(killers)}")
+        submissions = {run.known.name for run in runs if check.id in run.known.caught_by}
+        legend.add_row(
+            str(number), check.id, "hidden" if check.hidden else "", f"must catch {len(submissions)}"
+        )
     key = Text.assemble(
         "✓ passed  ",
         ("✗", KILL[1]),
-        " caught it  ",
+        " caught the fault  ",
         ("✗", CONSEQUENCE[1]),
-        " consequence  – not run  ! not judged  ",
+        " consequence of the fault  – not run  ! not judged  ",
         (" red ", SURPRISE),
         " not as expected",
     )

@@ -134,7 +134,9 @@ def _kind(path: Path) -> Kind:
     for kind in get_args(Kind):
         if path.parent.name == kind:
             return kind
-    raise HeaderError(f"{path} lies in {path.parent.name!r}; expected one of {', '.join(get_args(Kind))}")
+    raise HeaderError(
+        f"{path} is in the folder {path.parent.name!r}; expected one of {', '.join(get_args(Kind))}"
+    )
 
 
 def _parse(docstring: str) -> dict[str, str]:

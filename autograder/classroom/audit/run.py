@@ -66,7 +66,9 @@ class AuditedRun:
         """Describe each difference from the expected verdict; empty if there is none."""
         words = [f"{check_id} did not catch it ({self.status(check_id)})" for check_id in self.missed()]
         for check in self.grade.checks:
-            if check.status == "error" and "was not graded" not in check.help:  # the first cause only
+            if (
+                check.status == "error" and "was not graded" not in check.help
+            ):  # only the first cause is reported
                 words.append(f"{check.id} could not be judged: {check.help.splitlines()[0]}")
             elif check.id in self.unexpected():
                 words.append(f"{check.id} failed: expected {check.expected}; observed {check.observed}")
@@ -178,7 +180,7 @@ def for_any_fault(exercise: Exercise) -> frozenset[str]:
     return frozenset(check.id for check in exercise.checks if check.meets_any_fault)
 
 
-def checks_without_a_killer(runs: Sequence[AuditedRun], exercise: Exercise) -> list[str]:
+def unproved_checks(runs: Sequence[AuditedRun], exercise: Exercise) -> list[str]:
     """Return the checks that failed for no submission that names them, so that the audit does not prove their use."""
     proved = {
         check_id for run in runs for check_id in run.known.caught_by if run.status(check_id) == "failed"

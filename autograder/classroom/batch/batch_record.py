@@ -82,10 +82,10 @@ class BatchRecord:
 
     Attributes:
         state: "running" stays in the file if the batch is killed.
-        began, ended: UTC, ISO 8601, of the last run; `ended` is None until then.
+        began, ended: start and end of the last run, UTC, ISO 8601; `ended` is None while the batch is running.
         seed, seed_per_student, seed_per_submission: see `Seeds`; they draw the inputs of hidden checks.
         isolation: the label of the isolation on the machine or the cluster.
-        jobs: how many submissions were graded at a time.
+        jobs: number of submissions that were graded in parallel.
         cluster: address of the Dask scheduler, or "".
         shard: "K/N", or "".
         toolkit: commit of the clone.

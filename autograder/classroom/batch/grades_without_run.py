@@ -40,7 +40,7 @@ def unreadable(student: str, exercise: Exercise, isolation: str, seed: int, prob
 
 
 def with_reason(grade: Grade) -> Grade:
-    """Return the grade; if it is "not graded" without a reason, with the reason of the first check not judged."""
+    """Return the grade; a missing reason of "not graded" is taken from the first check that was not judged."""
     if grade.status == "graded" or grade.reason:
         return grade
     broken = next((verdict for verdict in grade.checks if verdict.status == "error"), None)

@@ -178,6 +178,6 @@ def _why_not_here(job: GradingJob, isolation: Isolation) -> str:
     if checks_version(load_exercise(job.exercise, hidden=False).folder) != job.version:
         return (
             f"the worker on {here} has other checks or another engine than the batch; bring its clone to the same "
-            "commit, start it again, and grade again with --resume"
+            "commit, restart the worker, and grade again with --resume"
         )
     return ""

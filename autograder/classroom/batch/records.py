@@ -1,4 +1,4 @@
-"""The file of grades that a batch writes."""
+"""Reads and writes the file of a batch's grades."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ class BatchRequest:
 
     Attributes:
         submitted: the folder of submissions.
-        out: where everything is written.
+        out: the output folder.
         jobs: how many arenas run in parallel on this machine.
         resume: keep the grades of an earlier run.
         seed: draws the inputs of hidden checks; None: the seed of the batch that is continued, or a new one.

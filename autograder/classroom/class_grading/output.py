@@ -44,8 +44,8 @@ def print_summary(console: Console, files: ClassFiles, out: Path, page: Path) ->
     is_entered = print_problems(console, files)
     if to_mark := sum(grade.status == "to mark" for grade in files.grades):
         console.print(
-            f"{to_mark} to be marked by hand, in formgrader; then run this again with --resume to write the points to "
-            f"{GRADES}",
+            f"{to_mark} to be marked by hand, in formgrader; then run this command again with --resume to write the "
+            f"points to {GRADES}",
             style="cyan",
         )
     console.print(f"read this first: {page}", markup=False, soft_wrap=True)

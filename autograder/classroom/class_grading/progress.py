@@ -72,13 +72,13 @@ class BatchProgress:
         self._submissions = submissions
 
     def verdict(self, _verdict: CheckVerdict) -> None:
-        """Count a verdict; on any thread."""
+        """Count a verdict; may be called on any thread."""
         with self._lock:
             self._pace.add()
         self._print_when_due()
 
     def running(self, jobs: Sequence[GradingJob]) -> None:
-        """Show these running jobs; on any thread."""
+        """Show these running jobs; may be called on any thread."""
         with self._lock:
             now = self._clock()
             self._began = {

@@ -21,7 +21,7 @@ from course_cli.ending import batch_status
 
 MIN_POLL_PERIOD = 1.0  # s
 MAX_TIME_SHARE = (
-    0.1  # of all time, for polling the folder, and the same again for writing the files on the whole class
+    0.1  # of the time for polling the folder, and as much for writing the files on the whole class
 )
 _SLEEP_TIME = 0.2  # s
 
@@ -30,7 +30,7 @@ def watch_and_grade(console: Console, request: BatchRequest) -> int:
     """Grade until Ctrl-C; return the exit status: 0 if every submission found has a grade in the gradebook.
 
     Raises:
-        NoSubmissions: the folder does not exist; it may be empty.
+        NoSubmissions: the folder does not exist (an empty folder is allowed).
         FolderInUse: another process watches the folder.
         UnusableExercise: the exercise's author has to correct the exercise.
         Exception: the exceptions of `prepared`.

@@ -46,7 +46,7 @@ class Reading:
     refused: list[str] = field(default_factory=list)
 
     def add(self, file: File, name: str, *student: str, **more: Any) -> None:
-        """Add a file of the student with the name `student` (its words); refuse an unusable name of a student."""
+        """Add a student's file; `student`: the words of the student's name. Refuse it if they make no valid name."""
         try:
             self.files.append(HandedIn(student_name(*student), name, file, **more))
         except Refused as error:

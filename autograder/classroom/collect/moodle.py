@@ -13,7 +13,7 @@ import re
 from autograder.classroom.collect.download import Download
 from autograder.classroom.collect.handed_in import Assignment, Reading, without_wrapper
 
-EXPECTED = "folders such as Anna Lee_12345_assignsubmission_file, or files whose names begin so"
+EXPECTED = "folders such as Anna Lee_12345_assignsubmission_file, or files whose names begin like this"
 _MARK = "_assignsubmission_file"
 _NAME = re.compile(rf"(?P<name>.+?)(?:_(?P<user>\d+))?{_MARK}(?:_(?P<file>.*))?")
 

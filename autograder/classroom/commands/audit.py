@@ -36,9 +36,9 @@ def audit(
     jobs: JobsOption = 2,
     repeat: Annotated[
         int,
-        typer.Option(min=1, help="how often to grade each submission, each time with other scenario inputs"),
+        typer.Option(min=1, help="number of times to grade each submission, each time with other inputs"),
     ] = 1,
-    seed: Annotated[int, typer.Option(min=0, help="scenario inputs of the first of these gradings")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="seed of the inputs in the first repetition")] = 0,
     only: Annotated[
         str,
         typer.Option(

@@ -1,4 +1,4 @@
-"""`course book`: chapters, exercises and docs as one static site."""
+"""`course book`: makes one static site of chapters, exercises and docs."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def _runs(console: Console) -> dict[str, NotebookNode | None]:
     for number, chapter in enumerate(chapters, start=1):
         title = f"{number}/{len(chapters)} {chapter.stem}"
         if kept.of(chapter):
-            console.print(f"{title}: unchanged, outputs of an earlier run", markup=False)
+            console.print(f"{title}: unchanged, has the outputs of an earlier run", markup=False)
         else:
             seconds = _run(chapter, title, kept, console)
             console.print(f"{title}: ran in {seconds:.0f} s", markup=False)

@@ -90,7 +90,7 @@ def _walk_and_cancel(console: Console) -> list[str]:
     """Walk the live robot with the reference server, and cancel a goal; return figures for the report."""
     console.print("1  The robot stands up in MuJoCo, and the reference server starts beside it", style="bold")
     submission = read_submission(SOLUTION, EXERCISE)
-    # The lab prints hints for notebooks, which would confuse in a terminal.
+    # The lab's output is meant for notebooks, so it is not shown here.
     quiet = contextlib.redirect_stdout(io.StringIO())
     with TemporaryDirectory() as folder, quiet, contextlib.ExitStack() as end:
         end.callback(lab.stop_everything)
@@ -167,7 +167,7 @@ def _require_expected(grades: Sequence[Grade]) -> None:
         raise DemoFailed("the reference solution did not get full marks; look at demo/grades.json")
     for faulty in wrong:
         if faulty.all_passed:
-            raise DemoFailed(f"the submission “{faulty.student}” was not found faulty")
+            raise DemoFailed(f"the faulty submission “{faulty.student}” got full marks")
 
 
 def _comparison(grades: Sequence[Grade]) -> Table:

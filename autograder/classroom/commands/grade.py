@@ -64,13 +64,13 @@ def grade(
         list[str] | None,
         typer.Option(
             "--student",
-            help="grade only this student's submissions; repeat it for several. Others keep their grades",
+            help="grade only this student's submissions (can be repeated); other students keep their grades",
         ),
     ] = None,
     exercise: Annotated[
         list[str] | None,
         typer.Option(
-            "--exercise", help="grade only this exercise; repeat it for several. Others keep their grades"
+            "--exercise", help="grade only this exercise (can be repeated); other exercises keep their grades"
         ),
     ] = None,
     record: Annotated[

@@ -19,7 +19,7 @@ def gradescope(
         "/autograder"
     ),
     exercise: Annotated[
-        str, typer.Option(help="the assignment's exercise (default: the one whose file was uploaded)")
+        str, typer.Option(help="the assignment's exercise (default: the exercise whose file was uploaded)")
     ] = "",
 ) -> None:
     """Grade the upload in a Gradescope container with the visible checks, and write results.json.

@@ -25,14 +25,14 @@ def platforms() -> None:
 @package.command()
 def gradescope(
     exercise: Annotated[
-        str, typer.Option(help="the assignment's exercise (default: the one whose file is uploaded)")
+        str, typer.Option(help="the assignment's exercise (default: the exercise whose file is uploaded)")
     ] = "",
     out: Annotated[
         Path | None, typer.Option(metavar="FILE.zip", help="the archive (default: gradescope[_EXERCISE].zip)")
     ] = None,
     course: CourseOption = None,
 ) -> None:
-    """Make the zip file of a Gradescope autograder, which runs visible checks and isolates students by another user."""
+    """Make the zip file of a Gradescope autograder: it has visible checks, and runs submissions as another user."""
     console = Console(highlight=False)
     if exercise in essay_names():
         raise ended(console, f"{exercise} has no checks: a person marks it", UNUSABLE)

@@ -38,7 +38,7 @@ class Table:
             return []
         return [
             f"{path} is not UTF-8 and was read as {self.encoding}: if a heading or a name is wrong in the files "
-            "written, save it as “CSV UTF-8” and export again"
+            "written, save the roster as “CSV UTF-8” and export again"
         ]
 
     def column(self, index: int) -> list[str]:

@@ -12,7 +12,7 @@ from autograder.engine.verdict import CheckVerdict, Grade
 TENTHS = [f"{10 * tenth}–{10 * tenth + 9}" for tenth in range(10)]
 FULL = "100"
 NEEDS_HELP = 0.6  # share of the points; submissions with less are listed
-MAX_TOPICS = 3  # of one student's submission
+MAX_TOPICS = 3  # listed for one submission
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.rendering import drawn, write_html
 
 CLASS_PAGE = "class.html"
-INDEX = "index.html"  # of a student's exercises
+INDEX = "index.html"  # the page that lists a student's exercises
 FOR_STUDENTS, FOR_INSTRUCTOR = "pages", "instructor"
 UP = "../.."  # from a submission's page to the folder of the class page
 

@@ -196,7 +196,7 @@ def _require_a_small_file(path: Path) -> None:
         )
     if size > MAX_FILE_BYTES:
         raise UnusableRecording(
-            f"{path} has {size / 2**20:.0f} MiB; a recording has at most {MAX_FILE_BYTES // 2**20}"
+            f"{path} has {size / 2**20:.0f} MiB; a recording has at most {MAX_FILE_BYTES // 2**20} MiB"
         )
 
 

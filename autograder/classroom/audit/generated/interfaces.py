@@ -40,7 +40,7 @@ class Interfaces:
             self._constants = dict.fromkeys(numbers, numbers) | self._constants
 
     def other_constants(self, name: str, most: int = 3) -> list[str]:
-        """Return up to `most` constants to confuse `name` with, nearest by value; [] if no interface has `name`."""
+        """Return up to `most` constants that could be confused with `name`, nearest by value; [] if it is unknown."""
         numbers = self._constants.get(name, {})
         others = sorted(numbers, key=lambda other: (abs(numbers[other] - numbers[name]), other))
         return [other for other in others if other != name][:most]

@@ -29,7 +29,7 @@ def drops_a_guard(program: Program) -> Iterator[Edits]:
 
 
 def loses_the_exit_status(program: Program) -> Iterator[Edits]:
-    """The program ends with status 0 whatever happened."""
+    """The program always ends with status 0."""
     for end in program.every(ast.Return):
         is_always_0 = isinstance(end.value, ast.Constant) and not end.value.value
         if program.function_name(end) == "main" and end.value and not is_always_0:
