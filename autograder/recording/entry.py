@@ -7,9 +7,8 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 
-FORMAT = (
-    "1"  # version of metadata and channels; increased when `course replay` can no longer read older files
-)
+# Version of metadata and channels; it is increased when `course replay` can no longer read older files.
+FORMAT = "1"
 METADATA = "course_recording"
 
 EVENTS = "/arena/events"  # descriptions of the events (rcl_interfaces/Log)

@@ -24,10 +24,10 @@ from autograder.recording.entry import Entry, full_name, stamp
 from ros_runtime.message_constants import GoalStatus
 from ros_runtime.messages import is_message, type_name
 
-_SENT, _RECEIVED = ServiceEventInfo.REQUEST_SENT, ServiceEventInfo.REQUEST_RECEIVED
-_REPLIED, _ANSWERED = ServiceEventInfo.RESPONSE_SENT, ServiceEventInfo.RESPONSE_RECEIVED
+_REQUEST_SENT, _REQUEST_RECEIVED = ServiceEventInfo.REQUEST_SENT, ServiceEventInfo.REQUEST_RECEIVED
+_RESPONSE_SENT, _RESPONSE_RECEIVED = ServiceEventInfo.RESPONSE_SENT, ServiceEventInfo.RESPONSE_RECEIVED
 _UUIDS = uuid.UUID("5e1f0c5e-1d0e-4c0a-9d61-0d5d2f2c7a10")  # UUID namespace of the course
-_LONGEST_LIST = 100  # goals in one status message
+_MAX_LISTED_GOALS = 100  # goals in one status message
 
 
 class InterfaceMessages:
@@ -48,13 +48,13 @@ class InterfaceMessages:
         """Yield the messages of one event."""
         match event:
             case ev.GoalSent(goal=goal, action=action, request=message):
-                yield from self._goal(event.t, goal, action, message, _SENT)
+                yield from self._goal(event.t, goal, action, message, _REQUEST_SENT)
             case ev.GoalReceived(goal=goal, action=action, message=message):
-                yield from self._goal(event.t, goal, action, message, _RECEIVED)
+                yield from self._goal(event.t, goal, action, message, _REQUEST_RECEIVED)
             case ev.GoalAnswered(goal=goal, accepted=accepted):
-                yield from self._goal_reply(event.t, goal, accepted, _ANSWERED)
+                yield from self._goal_reply(event.t, goal, accepted, _RESPONSE_RECEIVED)
             case ev.GoalReplySent(goal=goal, accepted=accepted):
-                yield from self._goal_reply(event.t, goal, accepted, _REPLIED)
+                yield from self._goal_reply(event.t, goal, accepted, _RESPONSE_SENT)
                 if accepted:
                     yield from self._status(event.t, goal, GoalStatus.EXECUTING)
             case (
@@ -68,12 +68,12 @@ class InterfaceMessages:
                 for goal in goals:
                     yield from self._status(event.t, goal, GoalStatus.CANCELING)
             case ev.ResultReceived(goal=goal, status=status, result=result):
-                yield from self._result(event.t, goal, status, result, _ANSWERED)
+                yield from self._result(event.t, goal, status, result, _RESPONSE_RECEIVED)
             case ev.GoalFinished(goal=goal, status=status, result=result):
                 self._results[goal] = (status, result)
                 yield from self._status(event.t, goal, status)
             case ev.ResultSent(goal=goal) if goal in self._results:
-                yield from self._result(event.t, goal, *self._results[goal], _REPLIED)
+                yield from self._result(event.t, goal, *self._results[goal], _RESPONSE_SENT)
             case (
                 ev.MessageReceived(topic=topic, message=message)
                 | ev.MessagePublished(topic=topic, message=message)
@@ -125,7 +125,7 @@ class InterfaceMessages:
         goals[goal] = int(status)
         listed = [
             GoalStatusMessage(goal_info=self._info(each), status=goals[each])
-            for each in list(goals)[-_LONGEST_LIST:]
+            for each in list(goals)[-_MAX_LISTED_GOALS:]
         ]
         topic = f"{full_name(self._namespace, action)}/_action/status"
         yield Entry(t, topic, GoalStatusArray(status_list=listed))

@@ -12,9 +12,9 @@ from ros_runtime.message_constants import GoalStatus, name_of
 from ros_runtime.messages import is_message, to_dict
 
 INFO, WARN = Log.INFO, Log.WARN
-MAX_CHARACTERS = 300  # characters of a line
-_MOST_FIELDS = 12
-_MOST_ELEMENTS = 6
+MAX_CHARACTERS = 300  # of a line
+_MAX_FIELDS = 12
+_MAX_ELEMENTS = 6
 
 
 def narrated(event: Any) -> tuple[int, str] | None:
@@ -28,8 +28,8 @@ def brief(message: Any) -> str:
     if not is_message(message):
         return ""
     fields = sorted(_leaves(to_dict(message)), key=_rank)
-    said = ", ".join(f"{name}={value}" for name, value in fields[:_MOST_FIELDS])
-    return said + (", …" if len(fields) > _MOST_FIELDS else "")
+    said = ", ".join(f"{name}={value}" for name, value in fields[:_MAX_FIELDS])
+    return said + (", …" if len(fields) > _MAX_FIELDS else "")
 
 
 def _rank(field: tuple[str, str]) -> int:
@@ -51,8 +51,8 @@ def _leaves(value: Any, name: str = "") -> Iterator[tuple[str, str]]:
                 yield from _leaves(inner, f"{name}.{key}" if name else key)
         case [*elements]:
             if elements:
-                shown = [_number(element) for element in elements[:_MOST_ELEMENTS]]
-                more = f", … {len(elements)} in all" if len(elements) > _MOST_ELEMENTS else ""
+                shown = [_number(element) for element in elements[:_MAX_ELEMENTS]]
+                more = f", … {len(elements)} in all" if len(elements) > _MAX_ELEMENTS else ""
                 yield name, f"[{', '.join(shown)}{more}]"
         case _ if value not in (0, "", False):
             yield name, _number(value)

@@ -13,7 +13,7 @@ from autograder.engine.exercise import all_names, exercise_names, exercises_fold
 from ros_runtime.course_error import COULD_NOT, CourseError
 
 TOP = "humanoid-course"  # the folder the archive unpacks to
-README = "docs/for_students.md"  # becomes their README.md; the clone's own is for instructors
+README = "docs/for_students.md"  # the archive's README.md; the clone's README.md is for instructors
 PARTS = (
     ".devcontainer",
     ".dockerignore",

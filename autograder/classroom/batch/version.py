@@ -10,7 +10,7 @@ from pathlib import Path
 from ros_runtime.project import PROJECT
 
 # The checks and the engine, the robot, the clock and the interfaces.
-JUDGING = ("autograder", "robot_sim", "ros_runtime", "humanoid_interfaces")
+JUDGING_FOLDERS = ("autograder", "robot_sim", "ros_runtime", "humanoid_interfaces")
 WITHOUT_INFLUENCE = ("autograder/classroom", "autograder/recording", "autograder/report")
 HIDDEN_CHECKS = "autograder/classroom/hidden_checks"  # the only part of classroom/ that has influence
 
@@ -21,8 +21,8 @@ def checks_version(exercise: Path) -> str:
     digest = hashlib.sha256()
     for path in sorted(exercise.glob("*.py")):
         digest.update(f"{path.name}\0".encode() + path.read_bytes())
-    for room in JUDGING:
-        for path in sorted((PROJECT / room).rglob("*")):
+    for folder in JUDGING_FOLDERS:
+        for path in sorted((PROJECT / folder).rglob("*")):
             place = path.relative_to(PROJECT)
             if path.is_file() and "__pycache__" not in place.parts and _has_influence(place):
                 digest.update(f"{place}\0".encode() + path.read_bytes())

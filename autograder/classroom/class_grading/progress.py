@@ -21,7 +21,7 @@ from autograder.report.table import progress_line
 
 MAX_LISTED_JOBS = 8  # running submissions that are listed
 PRINT_PERIOD = 30.0  # s between two progress lines without a terminal
-BAR = 20  # characters
+BAR_WIDTH = 20  # characters
 
 
 class BatchProgress:
@@ -135,7 +135,9 @@ class BatchProgress:
             if self._submissions is None:
                 first.add_row(Text(self._summary()))
             else:
-                bar = ProgressBar(total=max(1, self._pace.expected), completed=self._pace.done, width=BAR)
+                bar = ProgressBar(
+                    total=max(1, self._pace.expected), completed=self._pace.done, width=BAR_WIDTH
+                )
                 first.add_row(bar, Text(self._summary()))
         table = Table.grid(padding=(0, 2))
         for (student, exercise), since in rows[:MAX_LISTED_JOBS]:

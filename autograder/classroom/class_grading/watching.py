@@ -20,9 +20,8 @@ from autograder.classroom.class_grading.prepared_batch import PreparedBatch, pre
 from course_cli.ending import batch_status
 
 MIN_POLL_PERIOD = 1.0  # s
-MAX_TIME_SHARE = (
-    0.1  # of the time for polling the folder, and as much for writing the files on the whole class
-)
+# Share of the time for polling the folder, and the same share for writing the files on the whole class.
+MAX_TIME_SHARE = 0.1
 _SLEEP_TIME = 0.2  # s
 
 

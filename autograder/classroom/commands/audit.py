@@ -27,7 +27,7 @@ from course_cli.ending import COULD_NOT, ended
 from course_cli.options import CourseOption, JobsOption
 from ros_runtime.course_error import CourseError
 
-MATRIX_WIDTH = 140
+MATRIX_WIDTH = 140  # characters
 
 
 def audit(

@@ -30,9 +30,8 @@ MIN_DRAWN_MOTION = 0.1  # m; a standing robot sways less
 MIN_AXIS_SPEED = 0.2  # m/s; the speed axis reaches at least this value
 MAX_EVENTS = 12
 ROW_HEIGHT = 11.0  # pt, of an event's label above the panel
-MAX_GOAL_DISTANCE = (
-    20.0  # m from the origin; farther goals are not drawn, because the path would be too small to see
-)
+# m from the origin; farther goals are not drawn, because the path would be too small to see.
+MAX_GOAL_DISTANCE = 20.0
 
 
 class Plot:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from autograder.classroom.audit.generated.field_assignments import assignments, is_field
 from autograder.classroom.audit.generated.program import Edits, Program, callbacks, last_name
 
-_BLANK = ("0", "0.0", "False", "None", "''", "[]", "()", "{}")
+_RESET_VALUES = ("0", "0.0", "False", "None", "''", "[]", "()", "{}")
 _MAX_AGE = 5.0  # s, of a message that is still used
 _CLOCK = "__import__('time').monotonic()"
 
@@ -27,9 +27,9 @@ def forgets_a_reset(program: Program) -> Iterator[Edits]:
             and not is_field(target)
             and program.function_name(target) != "__init__"
         ):
-            if ast.unparse(value) in _BLANK:
+            if ast.unparse(value) in _RESET_VALUES:
                 yield dropped
-            elif isinstance(value, ast.IfExp) and ast.unparse(value.orelse) in _BLANK:
+            elif isinstance(value, ast.IfExp) and ast.unparse(value.orelse) in _RESET_VALUES:
                 yield {value.orelse: name}
     for statement in program.every(ast.Expr):
         if last_name(statement.value) == "clear":

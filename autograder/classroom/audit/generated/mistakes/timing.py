@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from autograder.classroom.audit.generated.program import Edits, Program, callbacks, last_name
 
-_WAITS = (0.7, 2.5)  # s
+_SLEEP_TIMES = (0.7, 2.5)  # s
 _READS_A_CLOCK = re.compile(r"\b(monotonic|time|_?now|perf_counter)\(")
 _CALLS_WITH_SECONDS = {"sleep", "wait", "create_timer", "Duration", "create_rate"}
 
@@ -16,7 +16,7 @@ _CALLS_WITH_SECONDS = {"sleep", "wait", "create_timer", "Duration", "create_rate
 def waits_in_a_callback(program: Program) -> Iterator[Edits]:
     """A callback sleeps before it does its work."""
     for callback in callbacks(program, "service", "goal", "cancel", "subscription"):
-        for seconds in _WAITS:
+        for seconds in _SLEEP_TIMES:
             yield program.begun_with(callback, f"__import__('time').sleep({seconds})")
 
 
