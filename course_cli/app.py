@@ -19,7 +19,7 @@ import typer
 from rich.console import Console
 from typer.core import TyperGroup
 
-from course_cli.ending import ended, user_message
+from course_cli.ending import error_exit, user_message
 from ros_runtime.course_error import CourseError
 
 HELP = "Learn ROS 2 services and actions on a humanoid that really balances."
@@ -126,7 +126,7 @@ class _Course(TyperGroup):
         try:
             return super().invoke(ctx)
         except CourseError as error:
-            raise ended(Console(highlight=False), error, error.exit_status) from error
+            raise error_exit(Console(highlight=False), error, error.exit_status) from error
 
 
 def app(chosen: str | None) -> typer.Typer:

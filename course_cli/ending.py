@@ -9,7 +9,7 @@ from rich.console import Console
 
 from ros_runtime.course_error import COULD_NOT, UNUSABLE
 
-__all__ = ["COULD_NOT", "NOT_GRADED", "UNUSABLE", "batch_status", "ended", "user_message"]
+__all__ = ["COULD_NOT", "NOT_GRADED", "UNUSABLE", "batch_status", "error_exit", "user_message"]
 
 NOT_GRADED = 3  # the grader could not judge a submission
 FULL_DISK = (
@@ -22,7 +22,7 @@ NO_PERMISSION = (
 )
 
 
-def ended(console: Console, reason: object, status: int) -> typer.Exit:
+def error_exit(console: Console, reason: object, status: int) -> typer.Exit:
     """Print the reason in red, and return the exception to raise."""
     console.print(str(reason), style="red", markup=False)
     return typer.Exit(status)

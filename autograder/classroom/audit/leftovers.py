@@ -35,15 +35,15 @@ def leftovers(timeout: float = 5.0) -> Iterator[list[str]]:
     """
     # Orphaned processes become children of this process, so that `descendants` finds them.
     ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
-    before, left = {*_seen(), *(f"file {path}" for path in _of_nodes())}, list[str]()
+    before, left = {*_resources(), *(f"file {path}" for path in _node_files())}, list[str]()
     yield left
     deadline = time.monotonic() + timeout
-    while (now := _seen() - before) and time.monotonic() < deadline:
+    while (now := _resources() - before) and time.monotonic() < deadline:
         time.sleep(0.05)
     left += sorted(now)
 
 
-def _seen() -> set[str]:
+def _resources() -> set[str]:
     return {*_processes(), *_mounts(), *_files(), *_locks(), *_groups()}
 
 
@@ -73,7 +73,7 @@ def _files() -> Iterator[str]:
 
 def _abandoned() -> Iterator[Path]:
     """Yield the files in shared memory that nodes have left behind, which no process has mapped."""
-    found = list(_of_nodes())
+    found = list(_node_files())
     mapped = _mapped() if found else set()
     for path in found:
         with suppress(FileNotFoundError):  # the file was just removed
@@ -82,7 +82,7 @@ def _abandoned() -> Iterator[Path]:
                 yield path
 
 
-def _of_nodes() -> Iterator[Path]:
+def _node_files() -> Iterator[Path]:
     if _SHARED_MEMORY.is_dir():
         yield from (path for path in _SHARED_MEMORY.iterdir() if path.name.startswith(_NODE_FILE_PREFIXES))
 

@@ -60,9 +60,9 @@ def _shown(
         question = read_question(asks["chapter"], KINDS[asks["way"]], number)
         asked[asks["name"]] = number, question
         draw = prediction if asks["way"] == "predict" else quiz
-        yield _paper(cell, draw(number, question))
+        yield _with_html(cell, draw(number, question))
     elif (reply := REPLIES.match(cell.source)) and reply["name"] in asked:
-        yield _paper(cell, replies(*asked[reply["name"]]))
+        yield _with_html(cell, replies(*asked[reply["name"]]))
     else:
         yield _changed(
             cell,
@@ -71,7 +71,7 @@ def _shown(
         )
 
 
-def _paper(cell: NotebookNode, html: str) -> NotebookNode:
+def _with_html(cell: NotebookNode, html: str) -> NotebookNode:
     """Return the cell with this HTML instead of its code."""
     shown = _changed(cell, outputs=[_html(html)])
     shown.metadata = nbformat.from_dict({"tags": [HIDDEN_INPUT]})

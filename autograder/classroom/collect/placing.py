@@ -37,7 +37,7 @@ def place(choice: Choice, out: Path, *, overwrite: bool) -> Placed:
         if folder.is_symlink() or folder.parent.is_symlink() or (folder.exists() and not folder.is_dir()):
             placed.refused.append(f"{student}'s {exercise}: {folder} is a link or not a folder; move it away")
             continue
-        before = _there(folder, exercise)
+        before = _existing_files(folder, exercise)
         if before == contents:
             placed.unchanged.append((student, exercise))
         elif before and not overwrite:
@@ -50,7 +50,7 @@ def place(choice: Choice, out: Path, *, overwrite: bool) -> Placed:
     return placed
 
 
-def _there(folder: Path, exercise: str) -> dict[str, bytes | None]:
+def _existing_files(folder: Path, exercise: str) -> dict[str, bytes | None]:
     """Return the content of the files that a grader would read in the folder; None for a link or a folder."""
     places = [folder / name for name in (f"{exercise}.ipynb", *file_names(exercise))]
     return {

@@ -10,7 +10,7 @@ import typer
 from rich.console import Console
 
 from autograder.engine.exercise import exercise_names, load_exercise
-from course_cli.ending import UNUSABLE, ended
+from course_cli.ending import UNUSABLE, error_exit
 from course_cli.options import JobsOption
 from ros_runtime.project import PROJECT
 
@@ -62,9 +62,9 @@ def bench(
 
     console = Console()
     if against and not (arena or submission):
-        raise ended(console, "--against needs --arena or --submission", UNUSABLE)
+        raise error_exit(console, "--against needs --arena or --submission", UNUSABLE)
     if json_file and not (arena or submission):
-        raise ended(console, "--json needs --arena or --submission", UNUSABLE)
+        raise error_exit(console, "--json needs --arena or --submission", UNUSABLE)
     if not (arena or submission or checks_of or trial):
         bench_overview(console, runs=runs, scales=scale or [], jobs=jobs, with_robot=robot)
         return
@@ -85,7 +85,7 @@ def bench(
         elif trial:
             bench_robot(console, None if ALL in trial else trial, quick=quick, jobs=jobs)
     except ValueError as error:
-        raise ended(console, error, UNUSABLE) from error
+        raise error_exit(console, error, UNUSABLE) from error
 
 
 def _exercises(names: list[str]) -> list[str]:

@@ -13,7 +13,7 @@ from autograder.classroom.batch.request import BatchRequest, UnusableRequest
 from autograder.classroom.batch.shards import Shard
 from autograder.classroom.class_grading.once import grade_once
 from autograder.classroom.class_grading.watching import watch_and_grade
-from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.ending import COULD_NOT, UNUSABLE, error_exit
 from course_cli.options import CourseOption, JobsOption
 
 
@@ -100,7 +100,7 @@ def grade(
             record=record,
         )
     except ValueError as error:  # a malformed shard, or options that exclude each other
-        raise ended(console, error, UNUSABLE) from error
+        raise error_exit(console, error, UNUSABLE) from error
     try:
         status = watch_and_grade(console, request) if request.watch else grade_once(console, request)
     except KeyboardInterrupt:

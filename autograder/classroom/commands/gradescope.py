@@ -10,7 +10,7 @@ import typer
 from rich.console import Console
 
 from autograder.classroom.on_gradescope.container import CannotGrade, Container, isolation_here
-from course_cli.ending import COULD_NOT, ended
+from course_cli.ending import COULD_NOT, error_exit
 from ros_runtime.project import PROJECT
 
 
@@ -38,7 +38,7 @@ def gradescope(
         results = grade_upload(container, exercise, isolation)
     except CannotGrade as error:
         container.write(WITHOUT_SCORE)
-        raise ended(console, f"not graded: {error}", COULD_NOT) from error
+        raise error_exit(console, f"not graded: {error}", COULD_NOT) from error
     except Exception as error:  # any other error is the grader's fault, not the student's
         container.write(WITHOUT_SCORE)
         traceback.print_exc()

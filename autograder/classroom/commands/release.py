@@ -12,7 +12,7 @@ from autograder.classroom.archives.student_bundle import write_bundle
 from autograder.classroom.nbgrader_bridge.course_folder import NbgraderError
 from autograder.classroom.nbgrader_bridge.release import bring_up_to_date, out_of_date
 from autograder.engine.exercise import exercises_folder
-from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.ending import COULD_NOT, UNUSABLE, error_exit
 from course_cli.options import CourseOption
 from ros_runtime.project import PROJECT
 
@@ -40,7 +40,7 @@ def release(
     try:
         _release(console, out, exercises, check)
     except NbgraderError as error:
-        raise ended(console, error, UNUSABLE) from error
+        raise error_exit(console, error, UNUSABLE) from error
 
 
 def _release(console: Console, out: Path, exercises: bool, check: bool) -> None:

@@ -121,7 +121,7 @@ def _hardest(graded: Sequence[Grade]) -> list[HardCheck]:
 
 
 def _hard_check(verdicts: Sequence[CheckVerdict]) -> HardCheck:
-    failed = [verdict for verdict in verdicts if lost(verdict)]
+    failed = [verdict for verdict in verdicts if is_failed(verdict)]
     advice = Counter(verdict.help for verdict in failed if verdict.help).most_common(1)
     first = verdicts[0]
     return HardCheck(
@@ -137,11 +137,11 @@ def _hard_check(verdicts: Sequence[CheckVerdict]) -> HardCheck:
 
 def _topics(grade: Grade) -> NeedsHelp:
     """Return the first failed checks to discuss, because later checks of an exercise build upon earlier ones."""
-    failed = [verdict for verdict in grade.checks if lost(verdict)]
+    failed = [verdict for verdict in grade.checks if is_failed(verdict)]
     return NeedsHelp(grade, failed[:MAX_TOPICS], len(failed[MAX_TOPICS:]))
 
 
-def lost(verdict: CheckVerdict) -> bool:
+def is_failed(verdict: CheckVerdict) -> bool:
     """Whether a check failed, or a person gave less than half of a criterion's points."""
     return verdict.status == "failed" or (
         verdict.status == "marked" and verdict.points < verdict.max_points / 2
