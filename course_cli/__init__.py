@@ -1,1 +1,1 @@
-"""The console script `course`: one command a file under course_cli/commands/."""
+"""The console script `course`, with one file per command in course_cli/commands/."""

@@ -1,7 +1,7 @@
 """The commands of `course`; a command's module is imported only when that command runs.
 
 Exit status of every command: 0 success, 1 failure, 2 unusable arguments.
-To add a command, write <name>.py with a function of that name into its folder, and a line in COMMANDS.
+To add a command, create <name>.py with a function <name> in the folder of commands, and add a line to COMMANDS.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ import typer
 from rich.console import Console
 from typer.core import TyperGroup
 
-from course_cli.ending import ended, in_a_sentence
+from course_cli.ending import error_exit, user_message
 from ros_runtime.course_error import CourseError
 from ros_runtime.project import COURSE, PROJECT
 
 HELP = "Learn ROS 2 services and actions on a humanoid that really balances."
 FORWARDING = {"ignore_unknown_options": True, "allow_extra_args": True}
 FOR_EVERYBODY, FOR_INSTRUCTORS = "course_cli.commands", "autograder.classroom.commands"
-UTF8_VARIABLE = "PYTHONUTF8"  # of Python; its child processes read it, too
+UTF8_VARIABLE = "PYTHONUTF8"  # read by Python and inherited by its child processes
 
 
 @dataclass(frozen=True)
@@ -34,8 +34,8 @@ class Command:
     """A command before its module is imported.
 
     Attributes:
-        summary: its line in `course --help`.
-        folder: the package that has its module; that of instructors is not in a student's archive.
+        summary: the command's line in `course --help`.
+        folder: the package with the command's module; the students' archive does not contain the instructors' package.
         forwards_arguments: the command passes unknown arguments, in typer.Context.args, to another program.
         forwards_help: the command also passes --help to that program.
     """
@@ -47,32 +47,34 @@ class Command:
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Typer's context settings: what the command parses itself and what it leaves in context.args."""
+        """Typer's context settings, which decide whether unknown arguments and --help stay in context.args."""
         if not self.forwards_arguments:
             return {}
         return FORWARDING | ({"help_option_names": []} if self.forwards_help else {})
 
 
 COMMANDS: dict[str, Command] = {
-    "demo": Command("See it all work: a walk, a cancel, three graded submissions.", FOR_INSTRUCTORS),
+    "demo": Command(
+        "Show the whole toolkit at work: a walk, a cancel, three graded submissions.", FOR_INSTRUCTORS
+    ),
     "lab": Command("Open the chapters and exercises.", forwards_arguments=True, forwards_help=False),
     "check": Command("Check your own solution of an exercise."),
-    "submit": Command("Write the files that you hand in, and see what they hold."),
-    "sim": Command("The robot node alone.", forwards_arguments=True),
+    "submit": Command("Write the files that you hand in, and print what they contain."),
+    "sim": Command("Run the robot node alone.", forwards_arguments=True),
     "ros": Command(
-        "The ros2 commands: topic, service, action, node, param, interface.", forwards_arguments=True
+        "Run a ros2 command: topic, service, action, node, param, interface.", forwards_arguments=True
     ),
-    "collect": Command("Read submissions from what a platform lets you download.", FOR_INSTRUCTORS),
+    "collect": Command("Read submissions from a platform's download.", FOR_INSTRUCTORS),
     "grade": Command("Grade a batch of submissions.", FOR_INSTRUCTORS),
     "replay": Command("Show a recorded arena: in the web view, as a film, as text."),
-    "merge": Command("Join the parts of a class that were graded apart.", FOR_INSTRUCTORS),
+    "merge": Command("Merge the parts of a class that were graded separately.", FOR_INSTRUCTORS),
     "export": Command("Write the grades for another platform.", FOR_INSTRUCTORS),
     "package": Command("Make an autograder that another platform runs.", FOR_INSTRUCTORS),
-    "gradescope": Command("In Gradescope's container: grade the upload.", FOR_INSTRUCTORS),
-    "new": Command("Make the folder of a new exercise.", FOR_INSTRUCTORS),
+    "gradescope": Command("Grade the upload, inside Gradescope's container.", FOR_INSTRUCTORS),
+    "new": Command("Create the folder of a new exercise.", FOR_INSTRUCTORS),
     "release": Command("Write the students' archive.", FOR_INSTRUCTORS),
     "audit": Command("Grade submissions with known faults.", FOR_INSTRUCTORS),
-    "book": Command("Make chapters, exercises and docs into a site for readers.", FOR_INSTRUCTORS),
+    "book": Command("Make a site for readers of the chapters, exercises and docs.", FOR_INSTRUCTORS),
     "bench": Command("Print the performance table.", FOR_INSTRUCTORS),
     "test": Command(
         "Run the tests, all or by tier.", FOR_INSTRUCTORS, forwards_arguments=True, forwards_help=False
@@ -84,19 +86,19 @@ def is_here(name: str) -> bool:
     """Return whether this copy of the course has the module of a command."""
     try:
         return find_spec(f"{COMMANDS[name].folder}.{name}") is not None
-    except ModuleNotFoundError:  # of the folder
+    except ModuleNotFoundError:  # the command's package is missing
         return False
 
 
 def load(name: str) -> Any:
-    """Import the module of a command, and return what it has under the command's name: a function, or a typer.Typer."""
+    """Import a command's module, and return the function or typer.Typer in it that has the command's name."""
     return getattr(import_module(f"{COMMANDS[name].folder}.{name}"), name)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command that `arguments` (default: the process's own) name, and exit with its status.
+    """Run the command in `arguments` (default: the process's arguments), and exit with its status.
 
-    A program that a script starts in the background (`course grade … &`) ignores SIGINT, and so would its child
+    If a script starts a program in the background (`course grade … &`), the program ignores SIGINT, and so do its child
     processes, such as students' nodes. Therefore the default handler of SIGINT is restored first.
     """
     signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -109,8 +111,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     try:
         app(chosen)(args=list(arguments), prog_name="course")
     except Exception as error:
-        if sentence := in_a_sentence(error):
-            sys.exit(sentence)
+        if message := user_message(error):
+            sys.exit(message)
         raise
 
 
@@ -124,7 +126,7 @@ def _keep_work() -> None:
 
 
 def _require_utf8() -> None:
-    """Start again in Python's UTF-8 mode where the locale has no UTF-8: students' names and texts need it."""
+    """Restart in Python's UTF-8 mode if the locale is not UTF-8, which students' names and texts need."""
     if sys.getfilesystemencoding() != "utf-8" and os.environ.get(UTF8_VARIABLE) != "1":
         os.environ[UTF8_VARIABLE] = "1"
         os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])
@@ -137,28 +139,28 @@ class _Course(TyperGroup):
         try:
             return super().invoke(ctx)
         except CourseError as error:
-            raise ended(Console(highlight=False), error, error.exit_status) from error
+            raise error_exit(Console(highlight=False), error, error.exit_status) from error
 
 
 def app(chosen: str | None) -> typer.Typer:
-    """Return the application with every command listed, and only `chosen` imported."""
+    """Return the application, which lists every command but has imported only the module of `chosen`."""
     course = typer.Typer(
         cls=_Course, help=HELP, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False
     )
     for name, command in COMMANDS.items():
         if not is_here(name):
             continue
-        target = load(name) if name == chosen else _listed_only(command.summary)
+        target = load(name) if name == chosen else _placeholder(command.summary)
         if isinstance(target, typer.Typer):
             course.add_typer(target, name=name, help=command.summary)
         else:
             course.command(name, context_settings=command.settings)(target)
-    # With a single command Typer would drop its name; a callback keeps it.
+    # Without a callback, Typer would drop the name of a single command.
     course.callback()(lambda: None)
     return course
 
 
-def _listed_only(summary: str) -> Callable[[], None]:
+def _placeholder(summary: str) -> Callable[[], None]:
     """Return a placeholder that lists a command in the help without importing its module."""
 
     def listed() -> None: ...

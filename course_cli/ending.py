@@ -1,4 +1,4 @@
-"""Exit statuses of the commands, and how they end with an error message."""
+"""Exit statuses of the commands, and their error messages."""
 
 from __future__ import annotations
 
@@ -9,34 +9,34 @@ from rich.console import Console
 
 from ros_runtime.course_error import COULD_NOT, UNUSABLE
 
-__all__ = ["COULD_NOT", "NOT_GRADED", "UNUSABLE", "batch_status", "ended", "in_a_sentence"]
+__all__ = ["COULD_NOT", "NOT_GRADED", "UNUSABLE", "batch_status", "error_exit", "user_message"]
 
 NOT_GRADED = 3  # the grader could not judge a submission
 FULL_DISK = (
     "course: the disk is full. Files that were complete before are intact.\n"
-    "Next: make room, then type the same command again; `course grade` goes on with --resume."
+    "Next: make room, then type the same command again; `course grade` continues with --resume."
 )
 NO_PERMISSION = (
     "course: no permission for {path}.\n"
-    "Next: choose a folder that you can write with --out, or change into one, then type the same command again."
+    "Next: give a folder that you can write to with --out, or change into one, then type the same command again."
 )
 
 
-def ended(console: Console, reason: object, status: int) -> typer.Exit:
-    """Print the reason in red and return what to raise."""
+def error_exit(console: Console, reason: object, status: int) -> typer.Exit:
+    """Print the reason in red, and return the exception to raise."""
     console.print(str(reason), style="red", markup=False)
     return typer.Exit(status)
 
 
 def batch_status(*, not_graded: int, complete: bool) -> int:
-    """Return the exit status of a batch: 3 if a submission is not graded, else 1 if it is incomplete, else 0."""
+    """Return a batch's exit status: 3 if a submission is not graded, else 1 if the batch is incomplete, else 0."""
     if not_graded:
         return NOT_GRADED
     return 0 if complete else COULD_NOT
 
 
-def in_a_sentence(error: BaseException) -> str:
-    """Return the message for a full disk or a missing permission among the error and its causes; else ""."""
+def user_message(error: BaseException) -> str:
+    """Return the message if the error or one of its causes is a full disk or a missing permission; else ""."""
     causes = [error]
     while (cause := causes[-1].__cause__ or causes[-1].__context__) is not None:
         causes.append(cause)
@@ -47,5 +47,5 @@ def in_a_sentence(error: BaseException) -> str:
 
 
 def _is_a_full_disk(error: BaseException) -> bool:
-    """Return whether an error, also one of SQLite, means that the disk or the quota is full."""
+    """Return whether an error, which may be SQLite's, means that the disk or the quota is full."""
     return getattr(error, "errno", None) in (errno.ENOSPC, errno.EDQUOT) or "disk is full" in str(error)

@@ -1,4 +1,4 @@
-"""The option `--course` of several commands."""
+"""Options that several commands share."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from autograder.engine.hand_in import MOST_FOLDERS, work_in
 from autograder.engine.submission import UnusableSubmission
 from ros_runtime.project import COURSE
 
-FOLDERS_HERE = 2  # levels of folders that are searched below the current one
+MAX_DEPTH_HERE = 2  # levels of folders to search below the current folder
 
 
 def own_work(exercise: str, file: Path | None) -> tuple[Path, list[str]]:
@@ -23,7 +23,7 @@ def own_work(exercise: str, file: Path | None) -> tuple[Path, list[str]]:
     here = Path()
     own = Path("exercises") / exercise
     # The clone's own folders hold the grader's test submissions.
-    below = 0 if here.resolve() == COURSE else FOLDERS_HERE
+    below = 0 if here.resolve() == COURSE else MAX_DEPTH_HERE
     places = [(file, MOST_FOLDERS)] if file else [(here, 0), (own, MOST_FOLDERS), (here, below)]
     for folder, depth in places:
         if folder.is_dir() and (found := work_in(folder, exercise, depth=depth)):

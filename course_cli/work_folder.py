@@ -1,4 +1,4 @@
-"""A student's own notebooks, where the installation is shared and read-only."""
+"""The folder of a student's own notebooks, for a shared installation that students cannot write to."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ def work_folder() -> Path:
 
 
 def _copy_missing(source: Path, place: Path) -> None:
-    """Copy a file, or the files of a folder, where they are missing; permissions are not copied."""
+    """Copy a file, or the files of a folder, unless they exist already; permissions are not copied."""
     files = sorted(source.rglob("*")) if source.is_dir() else [source]
     for file in files:
-        # other types of files were written by somebody's notebooks and are not part of the course
+        # Files of other types were written by notebooks that somebody ran; they are not part of the course.
         if not file.is_file() or file.suffix not in (".ipynb", ".md", ".png", ".gif", ".svg", ".webp"):
             continue
         copy = place / file.relative_to(source) if source.is_dir() else place

@@ -1,7 +1,7 @@
-# Sourced by ./course when .venv is missing or stale: makes it, or brings it up to date.
+# Sourced by ./course when .venv is missing or stale: makes or updates the environment.
 #
-# The stamp is written last, so a set-up that was interrupted is done again from the start. One set-up
-# at a time works on a clone; a second one waits and finds the work done.
+# The stamp is written last, so an interrupted set-up is repeated from the start. Only one set-up at a
+# time runs in a clone; a second ./course waits until the first has finished.
 
 readonly log=$root/build/setup.log
 
@@ -9,13 +9,13 @@ make_environment() {
     local started=$SECONDS
     if ! mkdir -p "$root/build" 2>/dev/null || [ ! -w "$root/build" ]; then
         say "cannot write to $clone/${toolkit}build as $(id -un 2>/dev/null || id -u): the environment is made inside the clone."
-        say "Next: clone the course into a folder of your own; or, if several people share it, ask whoever installed it"
-        say "to run $clone/course --help once: it has changed since the environment was made."
+        say "Next: clone the course into a folder of your own. If several people share this clone, it has changed since"
+        say "its environment was made: ask the person who installed it to run $clone/course --help once."
         return 1
     fi
     exec 9>"$root/build/setup.lock"
     if ! flock -n 9; then
-        say "another ./course is setting up this clone; waiting for it"
+        say "another ./course is setting up this clone; waiting until it has finished"
         flock 9
     fi
     state=$(environment_state)
@@ -40,13 +40,13 @@ new_environment() {
 }
 
 update_environment() {
-    say "something the environment is made from has changed; updating ${toolkit}.venv"
+    say "files that the environment depends on have changed; updating ${toolkit}.venv"
     mv "$stamp" "$stamp.before"
     install_everything || { mv "$stamp.before" "$stamp"; explain_failure; }
 }
 
-# Set `python` to the first Python 3.10-3.14 found. One that cannot run, such as a version manager's
-# shim for a version that is not chosen, is passed over. COURSE_PYTHON names another one.
+# Set `python` to the first Python 3.10-3.14 found. A Python that cannot run, such as a version
+# manager's shim for an inactive version, is skipped. The variable COURSE_PYTHON names another Python.
 find_python() {
     local candidate candidates=(python3 python3.13 python3.12 python3.11 python3.10 python3.14)
     [ "$ros" = apt ] && candidates=("$(basename "$(dirname "$ros_python")")")
@@ -60,33 +60,34 @@ find_python() {
     done
     say "no Python 3.10-3.14 was found (looked for: ${candidates[*]})."
     say "Next: install one, for example with  sudo apt-get install -y python3 python3-venv python3-dev,"
-    say "or name one:  COURSE_PYTHON=/path/to/python3.12 ./course"
+    say "or give the path of one:  COURSE_PYTHON=/path/to/python3.12 ./course"
     return 1
 }
 
-# What Debian's packages for the chosen Python begin with: python3 for the release's own.
+# Print the beginning of the names of Debian's packages for the chosen Python: python3 for the release's own.
 debian_name() {
     if [ "$(readlink -f "$python")" = "$(readlink -f /usr/bin/python3)" ]; then echo python3; else basename "$python"; fi
 }
 
 install_everything() {
     local extras=dev build_tools=() isolation=()
-    # The ROS build tools stay, since students build interfaces of their own: the course's are built with them, too, and
-    # not below the cache of HOME or TMPDIR, whose paths CMake may not take. apt's ROS has them already.
+    # The ROS build tools stay installed, because students build their own interfaces. The course's interfaces are built
+    # with them, too: a build in uv's cache, below HOME or TMPDIR, could have a path that CMake rejects. ROS from apt
+    # has the build tools already.
     [ "$ros" = wheels ] && extras=dev,ros-wheels build_tools=(-r "$root/setup/build-requirements.txt") isolation=(--no-build-isolation)
     write_constraints
     install_with_uv "$extras" || install_with_pip "$extras" || return 1
     compile_bytecode
 }
 
-# Arenas start hundreds of Python processes that may write nothing; without compiled files each start takes twice as long.
-# A file that cannot be compiled (a template, an old test) is no reason to stop.
+# Arenas start hundreds of Python processes that must not write files; without compiled files each start takes twice as
+# long. A file that cannot be compiled (a template, an old test) is ignored.
 compile_bytecode() {
     local packages=("$root"/{autograder,course_cli,lab,robot_sim,ros_cli,ros_runtime})
     logged env -u PYTHONDONTWRITEBYTECODE "$venv/bin/python" -m compileall -q -j 0 "$venv/lib" "${packages[@]}" || true
 }
 
-# The versions of requirements.lock. The rclpy of apt is compiled against the NumPy 1 of its Ubuntu release.
+# Write the versions of requirements.lock; rclpy from apt needs NumPy 1, because it is compiled against Ubuntu's NumPy.
 write_constraints() {
     if [ "$ros" = apt ]; then
         { grep -v '^numpy==' "$root/requirements.lock" && echo 'numpy<2'; } >"$venv/constraints.txt"
@@ -95,25 +96,26 @@ write_constraints() {
     fi
 }
 
-# uv is some ten times as fast as pip, but reads no pip configuration: behind a mirror that only pip knows, pip's turn comes.
+# uv is about ten times as fast as pip, but reads no pip configuration. If only pip's configuration names the mirror with
+# the packages, uv fails and pip is used.
 install_with_uv() {
     local extra extras=() uv=("$venv/bin/python" -m uv --no-config pip install --no-progress --python "$venv/bin/python"
         --constraints "$venv/constraints.txt" --build-constraints "$venv/constraints.txt")
     for extra in ${1//,/ }; do extras+=(--extra "$extra"); done
     logged "$venv/bin/python" -m pip install -c "$venv/constraints.txt" uv || return 1
-    say "installing packages (at first 300 MB to download: seconds to minutes, by your network)"
+    say "installing packages (the first time a download of 300 MB: seconds to minutes, depending on your network)"
     with_uv -r "$root/pyproject.toml" "${extras[@]}" "${build_tools[@]}" || return 1
     say "building humanoid_interfaces (about a minute; unchanged sources are not built again)"
     with_uv --no-deps --reinstall-package humanoid-course "${isolation[@]}" --editable "$root"
 }
 
-# A network that looks into encrypted connections has a certificate that the system knows, and uv's own list does not.
+# A network that inspects encrypted connections uses a certificate that is in the system's list, but not in uv's list.
 with_uv() {
     logged "${uv[@]}" "$@" || logged "${uv[@]}" --system-certs "$@"
 }
 
 install_with_pip() {
-    say "uv could not install, pip tries (2 to 6 minutes)"
+    say "uv could not install the packages; trying pip (2 to 6 minutes)"
     local pip=("$venv/bin/python" -m pip install) PIP_CONSTRAINT=$venv/constraints.txt
     export PIP_CONSTRAINT PIP_BUILD_CONSTRAINT=$PIP_CONSTRAINT
     [ "$ros" = apt ] || logged "${pip[@]}" "${build_tools[@]}" || return 1
@@ -127,7 +129,7 @@ logged() {
 
 explain_failure() {
     tail -n 25 "$log" >&2
-    say "the environment could not be made; the lines above end ${toolkit}build/setup.log, which has the rest."
-    say "Next: mend what they name (usual causes: no network, a full disk, no compiler), then run ./course again."
+    say "the environment could not be made; above are the last lines of ${toolkit}build/setup.log."
+    say "Next: correct the cause there (often no network, a full disk or no compiler), then run ./course again."
     return 1
 }

@@ -1,10 +1,10 @@
-"""Build hook of the one distribution: adds what is not Python source to its wheel.
+"""Build hook of this project's wheel, which adds the files that are not Python source.
 
-- humanoid_interfaces, built with CMake: modules to site-packages, libraries and share/ to the prefix;
-- lib/libscaled_clock.so, the arena's clock, where there is a C compiler;
-- the .pth file that lets every Python process repair rclpy (ros_runtime/workarounds/README.md).
+- humanoid_interfaces, built with CMake: modules go to site-packages, libraries and share/ to the prefix;
+- lib/libscaled_clock.so, the arena's clock, if there is a C compiler;
+- the .pth file with which every Python process repairs rclpy (ros_runtime/workarounds/README.md).
 
-Editable and normal wheels carry the same additions.
+Editable and normal wheels contain the same additions.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class CourseBuildHook(BuildHookInterface):
     """Called by hatchling for every wheel of this project."""
 
     def dependencies(self) -> list[str]:
-        """The ROS build tools, unless apt provides them or the interfaces are built already."""
+        """Return the ROS build tools, unless ROS from apt is sourced or the interfaces are built already."""
         built = built_prefix(self._interfaces, self._builds, os.environ, TOOLS)
         if sourced_prefixes(os.environ) or built.is_dir():
             return []
@@ -71,7 +71,7 @@ def _split(prefix: Path) -> tuple[dict[str, str], dict[str, str]]:
     others: dict[str, str] = {}
     for path in sorted(path for path in prefix.rglob("*") if path.is_file()):
         inside = path.relative_to(prefix)
-        # The egg-info would be a second distribution that pip does not know how to remove.
+        # The egg-info would be a second distribution, which pip could not uninstall.
         if any(part == "__pycache__" or part.endswith(".egg-info") for part in inside.parts):
             continue
         if inside.is_relative_to(PYTHON_LIB):
@@ -82,7 +82,7 @@ def _split(prefix: Path) -> tuple[dict[str, str], dict[str, str]]:
 
 
 def _build_scaled_clock(compile_module: Path, builds: Path) -> Path | None:
-    """Compile the arena's clock; None, with a warning, where that cannot be done."""
+    """Compile the arena's clock and return the library; if that fails, print a warning and return None."""
     spec = spec_from_file_location("compile_library", compile_module)
     if spec is None or spec.loader is None:
         raise RuntimeError(

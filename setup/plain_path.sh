@@ -1,10 +1,10 @@
-# Sourced by ./course: a path for the clone that every tool below the course takes. LD_PRELOAD splits at spaces, CMake
-# stumbles over "&" and letters beyond ASCII, the first lines of scripts over quotes.
+# Sourced by ./course: finds a path of the clone that all tools accept. LD_PRELOAD splits paths at spaces, CMake fails
+# with "&" and non-ASCII characters, and the first line of a script fails with quotes.
 
-# Print the path of a folder or, where it has other letters than these, that of a link to it which only its owner can change.
-# The link stands in a folder of its own: the kernel lets nobody follow another's link that stands in /tmp itself.
+# Print the path of a folder. If it has other characters than these, print the path of a link to the folder, which only
+# its owner can change. The link has a folder of its own: the kernel refuses to follow another user's link in /tmp.
 plain_path() {
-    local LC_ALL=C parent folder  # in C, A-Z are these letters and no others
+    local LC_ALL=C parent folder  # in the locale C, A-Z matches only ASCII letters
     case $1 in
         *:*)
             refuse_path "$1" "has a colon, which separates folders in PATH"
@@ -24,11 +24,11 @@ plain_path() {
             [ "$(readlink "$folder/clone")" = "$1" ] && echo "$folder/clone" && return
         fi
     done
-    refuse_path "$1" "has more than plain letters and digits, and no link to it can be made in /var/tmp or /tmp"
+    refuse_path "$1" "has special characters, and no link to it can be made in /var/tmp or /tmp"
     return 1
 }
 
-# belongs_to_us FOLDER CLONE: nobody else can change what is in the folder but root and whoever owns the clone.
+# belongs_to_us FOLDER CLONE: only this user, root and the clone's owner can change the content of the folder.
 belongs_to_us() {
     local owner mode
     read -r owner mode < <(stat -c '%u %a' "$1")
@@ -37,5 +37,5 @@ belongs_to_us() {
 
 refuse_path() {
     echo "course: the path of this folder, $1, $2." >&2
-    echo "course: Next: move it to a path of plain letters and digits, such as ~/course, and type the same command there." >&2
+    echo "course: Next: move it to a path of ASCII letters and digits, such as ~/course, and type the command again." >&2
 }

@@ -1,9 +1,9 @@
-# Sourced by ./course where ROS 2 from apt is used: two releases of its rclpy cannot be graded with.
+# Sourced by ./course if ROS 2 from apt is used: refuses two releases of rclpy that lose the results of correct servers.
 #
 # In 7.1.8 and 7.1.9 a goal's succeed(), canceled() and abort() send an empty result before the execute callback returns
-# its own, so a correct server loses its result now and then (ros2/rclpy#1598, #1617). 7.1.10 has the remedy (#1604).
+# the server's result, so the client sometimes receives the empty one (ros2/rclpy#1598, #1617). 7.1.10 fixes it (#1604).
 
-# Fail, and say what to do, if the package.xml of rclpy is that of such a release.
+# refuse_faulty_rclpy PACKAGE_XML: fail, and say what to do, if rclpy's package.xml has one of these versions.
 refuse_faulty_rclpy() {
     [ -r "$1" ] && [[ $(<"$1") =~ \<version\>[[:space:]]*(7\.1\.[89])[[:space:]]*\</version\> ]] || return 0
     echo "course: ROS 2 from apt has rclpy ${BASH_REMATCH[1]}, in which the result of a correct action server can arrive" \

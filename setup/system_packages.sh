@@ -1,7 +1,7 @@
-# Sourced by ./course: packages of the system's package manager, seen by their files and commands.
+# Sourced by ./course: finds missing system packages, by the files and commands that they install.
 #
-# Looking costs about a millisecond and is done before every command. Root gets what is missing from
-# apt-get; everyone else is told the line to type. Nothing here stops a command: what can work, works.
+# This takes about a millisecond and is done before every command. If the user is root, apt-get installs
+# the missing packages; otherwise the command to type is printed. A missing package never stops a command.
 
 readonly system_packages=(g++ bubblewrap libegl1 libopengl0 libgl1-mesa-dri)
 readonly test_packages=(chromium libosmesa6 debootstrap)
@@ -10,7 +10,7 @@ has_system_package() {
     case $1 in
         g++) command -v c++ >/dev/null || command -v g++ >/dev/null ;;
         bubblewrap) command -v bwrap >/dev/null ;;
-        # Pictures need EGL or, instead of all three, OSMesa.
+        # Pictures need these three packages for EGL, or OSMesa instead.
         libegl1) has_library libEGL.so.1 || has_library libOSMesa.so.8 ;;
         libopengl0) has_library libOpenGL.so.0 || has_library libOSMesa.so.8 ;;
         libgl1-mesa-dri) has_library dri/swrast_dri.so || has_library libOSMesa.so.8 ;;
@@ -24,7 +24,7 @@ has_system_package() {
 
 without_system_package() {
     case $1 in
-        g++) echo "the ROS interfaces cannot be built, so nothing works" ;;
+        g++) echo "the ROS interfaces cannot be built, which everything needs" ;;
         bubblewrap) echo "submissions cannot be isolated: grades are labelled untrusted" ;;
         libegl1 | libopengl0 | libgl1-mesa-dri) echo "no pictures of the robot" ;;
         chromium) echo "the robot's view is not tested in a browser" ;;
@@ -48,7 +48,7 @@ has_python_header() {
     "$python" -c "$code"
 }
 
-# ensure_system_packages PACKAGE...: install or name those that are missing.
+# ensure_system_packages PACKAGE...: install the missing packages, or print how to install them.
 ensure_system_packages() {
     local package missing=()
     for package; do
@@ -61,7 +61,7 @@ ensure_system_packages() {
     report_missing "${missing[@]}"
 }
 
-# An apt-get that could not install these is asked again only by the next set-up of the environment.
+# apt_failed_before PACKAGE...: whether apt-get has failed to install these. The next set-up tries again.
 apt_failed_before() { [ "$(cat "$root/build/apt-failed" 2>/dev/null)" = "$*" ]; }
 
 apt_install() {
@@ -71,7 +71,7 @@ apt_install() {
     echo "course: installing system packages: $* (up to a minute)" >&2
     {
         "${apt[@]}" update
-        # One at a time when they cannot be had together: a package that this release lacks takes no other with it.
+        # If this fails, install one package at a time: this release may lack only one of them.
         "${apt[@]}" install -y --no-install-recommends "$@" ||
             for package; do "${apt[@]}" install -y --no-install-recommends "$package"; done
     } >"$root/build/apt.log" 2>&1 </dev/null
@@ -86,7 +86,7 @@ report_missing() {
         rm -f "$root/build/apt-failed"
         return
     fi
-    [ "$(id -u)" -eq 0 ] && echo "$*" >"$root/build/apt-failed" && echo "course: apt-get could not install all; see build/apt.log" >&2
+    [ "$(id -u)" -eq 0 ] && echo "$*" >"$root/build/apt-failed" && echo "course: apt-get could not install all packages; see build/apt.log" >&2
     echo "course: missing system packages. Type:  sudo apt-get install -y ${missing[*]}" >&2
     for package in "${missing[@]}"; do
         echo "course:   without $package: $(without_system_package "$package")" >&2

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from autograder.isolation.limits import StudentLimits
-from autograder.isolation.student_sandbox import OOM_SCORE
+from autograder.isolation.student_sandbox import NICE_INCREMENT, OOM_SCORE
 
 _CAPABILITIES = ("CapInh", "CapPrm", "CapEff", "CapBnd", "CapAmb")
 _OWN = ("ipc", "mnt", "pid", "user", "uts")

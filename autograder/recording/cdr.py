@@ -1,7 +1,8 @@
-"""ROS messages as plain CDR, little-endian: the bytes that ROS 2 sends and that MCAP files hold.
+"""Serializes ROS messages as plain CDR, little-endian: the bytes that ROS 2 sends and that MCAP files hold.
 
-rclpy's own `serialize_message` ends messages such as a JointState without efforts with bytes of uninitialized memory,
-which strict readers refuse; mcap-ros2-support refuses the names of an action's types.
+Other serializers cannot be used here: rclpy's `serialize_message` ends some messages, such as a JointState without
+efforts, with bytes of uninitialized memory, which strict readers reject; mcap-ros2-support rejects the type names of
+actions.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ def serialize(message: Any) -> bytes:
     """Return the bytes of a ROS message.
 
     Raises:
-        ValueError, TypeError, struct.error: a field holds what its type cannot.
+        ValueError, TypeError, struct.error: a field's value does not fit its type.
     """
     out = bytearray()
     _message(out, message)
@@ -85,7 +86,7 @@ def _one(out: bytearray, declared: str, value: Any) -> None:
     elif is_message(value) and _short(type_name(value)) == declared:
         _message(out, value)
     else:
-        raise ValueError(f"{type(value).__name__} is no {declared}")
+        raise ValueError(f"{type(value).__name__} is not a {declared}")
 
 
 def _numbers(out: bytearray, kind: str, values: list[Any]) -> None:

@@ -1,6 +1,6 @@
-"""The definition of a message type for MCAP files: the .msg text of the type and of all its nested types.
+"""Makes the definition of a message type for MCAP files: the .msg text of the type and of all its nested types.
 
-It is derived from the generated classes, because an action's feedback message and a service's event have no .msg file.
+The text is derived from the generated classes, because feedback messages and service events have no .msg file.
 """
 
 from __future__ import annotations
@@ -15,25 +15,32 @@ from geometry_msgs.msg import TransformStamped
 from ros_runtime.messages import message_type
 
 _SEPARATOR = "=" * 80
-_NAMES = {"boolean": "bool", "double": "float64", "float": "float32", "octet": "byte"}  # IDL's → .msg's
+_NAMES = {
+    "boolean": "bool",
+    "double": "float64",
+    "float": "float32",
+    "octet": "byte",
+}  # names of types in IDL and in .msg files
 _SEQUENCE = re.compile(r"sequence<(.+?)(?:, (\d+))?>")
 _ARRAY = re.compile(r"(.+)\[(\d+)\]")
 _BOUNDED_TEXT = re.compile(r"(w?string)<(\d+)>")
-_IN_IMPL = ("FeedbackMessage", "SendGoal", "GetResult")  # types that rclpy keeps in an action's `Impl`
+_IN_IMPL = ("FeedbackMessage", "SendGoal", "GetResult")  # types that are in an action's nested class `Impl`
 TF_TYPE = "tf2_msgs/msg/TFMessage"
 
 
 class TFMessage:
-    """The message TF_TYPE, which the ROS wheels lack, with only the members that serialization needs."""
+    """The message TF_TYPE, which the ROS wheels lack; it has only the members that serialization needs."""
 
-    __module__ = "tf2_msgs.msg._tf_message"  # where the generated class is
+    __module__ = (
+        "tf2_msgs.msg._tf_message"  # the generated class has this module, from which its type is read
+    )
 
     def __init__(self, transforms: Sequence[TransformStamped] = ()) -> None:
         self.transforms = list(transforms)
 
     @classmethod
     def get_fields_and_field_types(cls) -> dict[str, str]:
-        """Return the fields with their types, like a generated message class."""
+        """Return the fields with their types, as a generated message class does."""
         return {"transforms": "sequence<geometry_msgs/TransformStamped>"}
 
 
@@ -46,13 +53,13 @@ def definition(type_name: str) -> str:
     """
     fields = _fields(type_name)
     texts = [_text(fields)]
-    told: set[str] = set()
+    defined: set[str] = set()
     open_types = list(_nested(fields, type_name))
     while open_types:
         name = open_types.pop(0)
-        if name in told:
+        if name in defined:
             continue
-        told.add(name)
+        defined.add(name)
         fields = _fields(name)
         package, _, short = name.split("/")
         texts.append(f"{_SEPARATOR}\nMSG: {package}/{short}\n{_text(fields)}")
@@ -61,7 +68,7 @@ def definition(type_name: str) -> str:
 
 
 def class_of(type_name: str) -> Any:
-    """Return the generated class of a type; services' and actions' part types are found, too.
+    """Return the generated class of a type, which may also be a part of a service or an action.
 
     Raises:
         ValueError: there is no such type.

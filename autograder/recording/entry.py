@@ -1,4 +1,4 @@
-"""One message of a recording, and the names that its writer and its reader share."""
+"""One message of a recording, and the names that are shared by the writer and the reader of recordings."""
 
 from __future__ import annotations
 
@@ -7,12 +7,13 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 
-FORMAT = "1"  # version of metadata and channels; raised when `course replay` can no longer read older files
+# Version of metadata and channels; it is increased when `course replay` can no longer read older files.
+FORMAT = "1"
 METADATA = "course_recording"
 
-EVENTS = "/arena/events"  # what happened, in words (rcl_interfaces/Log)
-ROSOUT = "/rosout"  # what the program printed, and the verdicts (rcl_interfaces/Log)
-CHECKS = "course.checks"  # name of the "logger" of verdicts
+EVENTS = "/arena/events"  # descriptions of the events (rcl_interfaces/Log)
+ROSOUT = "/rosout"  # the program's output, and the verdicts (rcl_interfaces/Log)
+CHECKS = "course.checks"  # the logger's name in the log messages of verdicts
 
 
 @dataclass(frozen=True)
@@ -20,10 +21,11 @@ class Entry:
     """A message on a topic.
 
     Attributes:
-        t: s on the arena's clock, since the arena's start.
+        t: time since the arena's start, s on the arena's clock.
         topic: full name of the topic.
         message: a ROS message.
-        essential: never left out, even if the student's program floods the recording: ground truth and verdicts.
+        essential: whether the message is never left out, even if the student's program floods the recording. Ground
+            truth and verdicts are essential.
     """
 
     t: float

@@ -1,9 +1,10 @@
-"""The calls and goals of a run as messages on the topics of a real robot.
+"""Converts the goals and messages of a run to messages on the topics that a real robot would have.
 
-Feedback and status of an action are on its hidden topics `_action/feedback` and `_action/status`, goals and results on
-the service events (ROS 2's service introspection) of `_action/send_goal` and `_action/get_result`. The record names
-goals; their UUIDs and sequence numbers are derived from the names, so they are the same in every recording.
-Calls and cancels are recorded as text only (`narration`), because rosbags, the reader in the tests, has no srv types.
+An action's feedback and status are on its hidden topics `_action/feedback` and `_action/status`. Its goals and results
+are service events (ROS 2's service introspection) of `_action/send_goal` and `_action/get_result`. The transcript gives
+each goal a name; UUIDs and sequence numbers are derived from the names, so they are the same in every recording.
+Service calls and cancel requests are recorded as text only (`narration`), because rosbags, with which the tests read
+recordings, has no service types.
 """
 
 from __future__ import annotations
@@ -23,22 +24,22 @@ from autograder.recording.entry import Entry, full_name, stamp
 from ros_runtime.message_constants import GoalStatus
 from ros_runtime.messages import is_message, type_name
 
-_SENT, _RECEIVED = ServiceEventInfo.REQUEST_SENT, ServiceEventInfo.REQUEST_RECEIVED
-_REPLIED, _ANSWERED = ServiceEventInfo.RESPONSE_SENT, ServiceEventInfo.RESPONSE_RECEIVED
+_REQUEST_SENT, _REQUEST_RECEIVED = ServiceEventInfo.REQUEST_SENT, ServiceEventInfo.REQUEST_RECEIVED
+_RESPONSE_SENT, _RESPONSE_RECEIVED = ServiceEventInfo.RESPONSE_SENT, ServiceEventInfo.RESPONSE_RECEIVED
 _UUIDS = uuid.UUID("5e1f0c5e-1d0e-4c0a-9d61-0d5d2f2c7a10")  # UUID namespace of the course
-_LONGEST_LIST = 100  # goals in one status message
+_MAX_LISTED_GOALS = 100  # goals in one status message
 
 
 class InterfaceMessages:
     """Converts the events of one run to messages; call `of` with all events in order.
 
-    An inconsistent event (an answer without a request, a message of another type) yields nothing.
+    An inconsistent event (a response without a request, a message of another type) yields nothing.
     """
 
     def __init__(self, namespace: str) -> None:
         self._namespace = namespace
-        self._actions: dict[str, tuple[str, str]] = {}  # goal → action and its type
-        self._statuses: dict[str, dict[str, int]] = {}  # action → its goals' statuses
+        self._actions: dict[str, tuple[str, str]] = {}  # action and its type, by goal
+        self._statuses: dict[str, dict[str, int]] = {}  # statuses of the goals, by action and goal
         self._accepted: dict[str, float] = {}
         self._results: dict[str, tuple[int, Any]] = {}
         self._numbers: dict[str, int] = {}
@@ -47,13 +48,13 @@ class InterfaceMessages:
         """Yield the messages of one event."""
         match event:
             case ev.GoalSent(goal=goal, action=action, request=message):
-                yield from self._goal(event.t, goal, action, message, _SENT)
+                yield from self._goal(event.t, goal, action, message, _REQUEST_SENT)
             case ev.GoalReceived(goal=goal, action=action, message=message):
-                yield from self._goal(event.t, goal, action, message, _RECEIVED)
+                yield from self._goal(event.t, goal, action, message, _REQUEST_RECEIVED)
             case ev.GoalAnswered(goal=goal, accepted=accepted):
-                yield from self._goal_reply(event.t, goal, accepted, _ANSWERED)
+                yield from self._goal_reply(event.t, goal, accepted, _RESPONSE_RECEIVED)
             case ev.GoalReplySent(goal=goal, accepted=accepted):
-                yield from self._goal_reply(event.t, goal, accepted, _REPLIED)
+                yield from self._goal_reply(event.t, goal, accepted, _RESPONSE_SENT)
                 if accepted:
                     yield from self._status(event.t, goal, GoalStatus.EXECUTING)
             case (
@@ -67,12 +68,12 @@ class InterfaceMessages:
                 for goal in goals:
                     yield from self._status(event.t, goal, GoalStatus.CANCELING)
             case ev.ResultReceived(goal=goal, status=status, result=result):
-                yield from self._result(event.t, goal, status, result, _ANSWERED)
+                yield from self._result(event.t, goal, status, result, _RESPONSE_RECEIVED)
             case ev.GoalFinished(goal=goal, status=status, result=result):
                 self._results[goal] = (status, result)
                 yield from self._status(event.t, goal, status)
             case ev.ResultSent(goal=goal) if goal in self._results:
-                yield from self._result(event.t, goal, *self._results[goal], _REPLIED)
+                yield from self._result(event.t, goal, *self._results[goal], _RESPONSE_SENT)
             case (
                 ev.MessageReceived(topic=topic, message=message)
                 | ev.MessagePublished(topic=topic, message=message)
@@ -100,7 +101,7 @@ class InterfaceMessages:
             yield self._part(t, goal, "get_result", f"{base}_GetResult_Event", kind, response=response)
 
     def _part(self, t: float, goal: str, part: str, event_type: str, kind: int, **parts: Any) -> Entry:
-        """Return a service event of one of the action's services."""
+        """Return a service event of `part`, which is one of the action's services."""
         message = class_of(event_type)()
         message.info.event_type = kind
         message.info.stamp = stamp(t)
@@ -124,7 +125,7 @@ class InterfaceMessages:
         goals[goal] = int(status)
         listed = [
             GoalStatusMessage(goal_info=self._info(each), status=goals[each])
-            for each in list(goals)[-_LONGEST_LIST:]
+            for each in list(goals)[-_MAX_LISTED_GOALS:]
         ]
         topic = f"{full_name(self._namespace, action)}/_action/status"
         yield Entry(t, topic, GoalStatusArray(status_list=listed))
@@ -138,6 +139,6 @@ def _uuid(goal: str) -> UUID:
 
 
 def _base_of(message: Any, part: str) -> str:
-    """Return the interface that a message is a part of, such as 'std_srvs/srv/Trigger'; "" if it is not a part."""
+    """Return the interface whose part a message is, such as 'std_srvs/srv/Trigger'; "" for any other message."""
     name = type_name(message) if is_message(message) else ""
     return name.removesuffix(part) if name.endswith(part) else ""

@@ -1,4 +1,4 @@
-"""Recordings on disk."""
+"""Stores recordings on disk."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Recordings = Mapping[str, bytes]  # MCAP files by their names, such as walk.mcap
 
 
 def keep(folder: Path, recordings: Recordings) -> None:
-    """Write the recordings of one submission into its folder; those of an earlier grading are removed."""
+    """Write the recordings of one submission into its folder, and remove those of an earlier grading."""
     for old in folder.glob(f"*{SUFFIX}"):
         if old.name not in recordings:
             old.unlink()

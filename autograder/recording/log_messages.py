@@ -1,4 +1,4 @@
-"""Log messages (rcl_interfaces/Log): the events of a run, the program's output, and every verdict at its time."""
+"""Makes log messages (rcl_interfaces/Log) of a run's events, of the program's output, and of the verdicts."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ _OF_RCLPY = re.compile(r"\[(DEBUG|INFO|WARN|ERROR|FATAL)\] \[[\d.]+\] \[([^\]]*)
 
 
 @dataclass(frozen=True)
-class Judged:
+class RecordedVerdict:
     """A verdict in the recording of a run.
 
     Attributes:
         verdict: the verdict itself.
-        elsewhere: the verdict was given on another run of the scenario than the recorded one.
-        beside: names of further scenarios that the verdict was given on; its time may be from any of them.
+        from_another_run: the check judged another run of this scenario than the recorded one.
+        other_scenarios: names of further scenarios that the check judged; the verdict's time may be from any of them.
     """
 
     verdict: CheckVerdict
-    elsewhere: bool = False
-    beside: Sequence[str] = ()
+    from_another_run: bool = False
+    other_scenarios: Sequence[str] = ()
 
 
 def log_messages(transcript: Transcript, program: str) -> Iterator[Entry]:
@@ -38,49 +38,53 @@ def log_messages(transcript: Transcript, program: str) -> Iterator[Entry]:
     for event in transcript.events:
         if isinstance(event, ev.NodeOutput):
             yield Entry(event.t, ROSOUT, _printed(event, program))
-        elif told := narrated(event):
-            yield Entry(event.t, EVENTS, log(event.t, told[0], "arena", told[1]))
+        elif described := narrated(event):
+            yield Entry(event.t, EVENTS, log(event.t, described[0], "arena", described[1]))
 
 
-def verdict_messages(judged: Iterable[Judged], end: float) -> Iterator[Entry]:
-    """Yield each verdict: a failed check as an ERROR at its time, a passed one as INFO, one that was not run as WARN.
+def verdict_messages(judged: Iterable[RecordedVerdict], end: float) -> Iterator[Entry]:
+    """Yield each verdict at its time: a failed check as ERROR, a passed check as INFO, any other verdict as WARN.
 
     A verdict without a time, or from another run, is placed at `end` (s).
     """
     for each in judged:
         verdict = each.verdict
-        at = end if verdict.robot_time is None or each.elsewhere else min(max(verdict.robot_time, 0.0), end)
+        at = (
+            end
+            if verdict.robot_time is None or each.from_another_run
+            else min(max(verdict.robot_time, 0.0), end)
+        )
         level = {"failed": Log.ERROR, "passed": Log.INFO}.get(verdict.status, Log.WARN)
         message = log(at, level, CHECKS, _sentence(each), function=verdict.id)
         yield Entry(at, ROSOUT, message, essential=True)
 
 
 def log(t: float, level: int, name: str, text: str, function: str = "") -> Log:
-    """Return a line of a log."""
+    """Return a log message."""
     return Log(stamp=stamp(t), level=level, name=_text(name), msg=_text(text), function=_text(function))
 
 
 def _printed(event: ev.NodeOutput, program: str) -> Any:
-    """Return a line of output: with rclpy's own level and logger where it wrote them, else stderr as WARN."""
+    """Return a line of output as a log message, with rclpy's level if the line has one, else WARN for stderr."""
     if match := _OF_RCLPY.fullmatch(event.text):
         return log(event.t, getattr(Log, match[1]), match[2], match[3])
     return log(event.t, Log.INFO if event.stream == "stdout" else Log.WARN, program, event.text)
 
 
-def _sentence(judged: Judged) -> str:
+def _sentence(judged: RecordedVerdict) -> str:
     verdict = judged.verdict
     parts = [f"{verdict.status}: {verdict.title} ({verdict.points:g}/{verdict.max_points}, {verdict.id})"]
     parts += [f"expected {verdict.expected}"] if verdict.expected else []
     parts += [f"observed {verdict.observed}"] if verdict.observed else []
     if verdict.status == "failed" and verdict.help:
         parts.append(verdict.help)
-    if judged.beside:
-        parts.append(f"judged on {', '.join(judged.beside)}, too; the time may be from one of those")
-    if judged.elsewhere:
+    if judged.other_scenarios:
+        parts.append(f"judged on {', '.join(judged.other_scenarios)}, too; the time may be from one of these")
+    if judged.from_another_run:
         parts.append("judged on another run of this scenario, not on the recorded one")
     return "; ".join(parts)
 
 
 def _text(text: str) -> str:
-    """Return text that UTF-8 and C strings can hold."""
+    """Return the text without characters that UTF-8 or C strings cannot hold."""
     return text.encode("utf-8", "replace").decode().replace("\0", "␀")

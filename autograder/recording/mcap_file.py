@@ -1,4 +1,4 @@
-"""An MCAP file in memory, of bounded size: what a student's program sends cannot fill a disk."""
+"""Writes an MCAP file of limited size in memory, so that a student's messages cannot fill the disk."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from autograder.recording.entry import EVENTS, METADATA, Entry, as_nanoseconds
 from autograder.recording.log_messages import log
 from ros_runtime.messages import type_name
 
-LARGEST_MESSAGE = 2**18  # bytes of one non-essential message
-MOST_OF_THE_REST = 6 * 2**20  # bytes of all non-essential messages, before compression
-MOST_TOPICS = 200  # non-essential messages
-CHUNK = 2**18  # bytes
+MAX_MESSAGE_BYTES = 2**18  # of one non-essential message
+MAX_NONESSENTIAL_BYTES = 6 * 2**20  # of all non-essential messages, before compression
+MAX_TOPICS = 200  # a non-essential message on a further topic is left out
+CHUNK_BYTES = 2**18
 
 
 def mcap_file(entries: Iterable[Entry], metadata: Mapping[str, str]) -> bytes:
     """Return messages as an MCAP file of profile "ros2", compressed with zstd.
 
-    Non-essential messages have a budget. Messages beyond it are left out, and a line on /arena/events marks where that
-    begins.
+    The size of non-essential messages is limited. Messages beyond the limit are left out, and a message on
+    /arena/events marks the first of them.
     """
     out = io.BytesIO()
     file = _File(out)
@@ -39,11 +39,11 @@ def mcap_file(entries: Iterable[Entry], metadata: Mapping[str, str]) -> bytes:
 
 class _File:
     def __init__(self, out: io.BytesIO) -> None:
-        self._writer = Writer(out, chunk_size=CHUNK, compression=CompressionType.ZSTD)
+        self._writer = Writer(out, chunk_size=CHUNK_BYTES, compression=CompressionType.ZSTD)
         self._schemas: dict[str, int] = {}
         self._channels: dict[tuple[str, str], int] = {}
         self._sequence: dict[int, int] = {}
-        self._rest = 0
+        self._nonessential_bytes = 0
         self._left_out = 0
 
     def begin(self, metadata: Mapping[str, str]) -> None:
@@ -54,7 +54,7 @@ class _File:
         try:
             data = serialize(entry.message)
             self._schema(type_name(entry.message))
-        except Exception:  # skip only the message that cannot be serialized
+        except Exception:  # this message cannot be serialized; the others are still written
             logging.getLogger(__name__).debug("left out: a message on %s", entry.topic, exc_info=True)
             self._leave_out(entry.t)
             return
@@ -69,18 +69,18 @@ class _File:
     def _fits(self, entry: Entry, size: int) -> bool:
         new_topic = (entry.topic, type_name(entry.message)) not in self._channels
         if (
-            size > LARGEST_MESSAGE
-            or self._rest + size > MOST_OF_THE_REST
-            or (new_topic and len(self._channels) >= MOST_TOPICS)
+            size > MAX_MESSAGE_BYTES
+            or self._nonessential_bytes + size > MAX_NONESSENTIAL_BYTES
+            or (new_topic and len(self._channels) >= MAX_TOPICS)
         ):
             return False
-        self._rest += size
+        self._nonessential_bytes += size
         return True
 
     def _leave_out(self, t: float) -> None:
         self._left_out += 1
         if self._left_out == 1:
-            text = "from here on messages are left out: they are too many, too large or cannot be written"
+            text = "some messages are left out from here on: too many, too large, or not serializable"
             message = log(t, Log.WARN, "recording", text)
             self._write(Entry(t, EVENTS, message, essential=True), serialize(message))
 

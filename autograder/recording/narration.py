@@ -12,24 +12,24 @@ from ros_runtime.message_constants import GoalStatus, name_of
 from ros_runtime.messages import is_message, to_dict
 
 INFO, WARN = Log.INFO, Log.WARN
-MAX_CHARACTERS = 300  # characters of a line
-_MOST_FIELDS = 12
-_MOST_ELEMENTS = 6
+MAX_CHARACTERS = 300  # of a line
+_MAX_FIELDS = 12
+_MAX_ELEMENTS = 6
 
 
 def narrated(event: Any) -> tuple[int, str] | None:
-    """Return an event's log level and text; None for events with their own topics (feedback, output)."""
-    told = _of_the_program(event) or _of_interfaces(event) or _of_the_grader(event)
-    return (told[0], told[1][:MAX_CHARACTERS]) if told else None
+    """Return an event's log level and text; None for events that have topics of their own (feedback, output)."""
+    described = _of_the_program(event) or _of_interfaces(event) or _of_the_grader(event)
+    return (described[0], described[1][:MAX_CHARACTERS]) if described else None
 
 
 def brief(message: Any) -> str:
-    """Return the non-empty fields of a message in one line: plain fields first, of a pose only the position."""
+    """Return the non-empty fields of a message in one line: plain fields first; for a pose, only the position."""
     if not is_message(message):
         return ""
     fields = sorted(_leaves(to_dict(message)), key=_rank)
-    said = ", ".join(f"{name}={value}" for name, value in fields[:_MOST_FIELDS])
-    return said + (", …" if len(fields) > _MOST_FIELDS else "")
+    said = ", ".join(f"{name}={value}" for name, value in fields[:_MAX_FIELDS])
+    return said + (", …" if len(fields) > _MAX_FIELDS else "")
 
 
 def _rank(field: tuple[str, str]) -> int:
@@ -51,8 +51,8 @@ def _leaves(value: Any, name: str = "") -> Iterator[tuple[str, str]]:
                 yield from _leaves(inner, f"{name}.{key}" if name else key)
         case [*elements]:
             if elements:
-                shown = [_number(element) for element in elements[:_MOST_ELEMENTS]]
-                more = f", … {len(elements)} in all" if len(elements) > _MOST_ELEMENTS else ""
+                shown = [_number(element) for element in elements[:_MAX_ELEMENTS]]
+                more = f", … {len(elements)} in all" if len(elements) > _MAX_ELEMENTS else ""
                 yield name, f"[{', '.join(shown)}{more}]"
         case _ if value not in (0, "", False):
             yield name, _number(value)
@@ -67,11 +67,11 @@ def _number(value: Any) -> str:
 def _of_the_program(event: Any) -> tuple[int, str] | None:
     match event:
         case ev.NodeStarted():
-            return INFO, "the program is started"
+            return INFO, "the program starts"
         case ev.NodeReady(waited=waited):
-            return INFO, f"its services and actions are there, after {waited:.1f} s"
+            return INFO, f"the program's services and actions are available after {waited:.1f} s"
         case ev.NodeNotReady(missing=missing, offered=offered):
-            return WARN, f"missing: {', '.join(missing)}; there is: {', '.join(offered) or 'nothing'}"
+            return WARN, f"missing: {', '.join(missing)}; available: {', '.join(offered) or 'nothing'}"
         case ev.NodeTyped(line=line):
             return INFO, "stdin ends" if line is None else f"typed: {line}"
         case ev.NodeSignalled(signal=signal):
@@ -79,15 +79,18 @@ def _of_the_program(event: Any) -> tuple[int, str] | None:
         case ev.NodeExited(returncode=code):
             return INFO, f"the program ended with status {code}"
         case ev.NodeKilled(reason=reason):
-            return WARN, f"the program was ended: {reason}"
+            return WARN, f"the program was killed: {reason}"
         case ev.ArenaOverfull(memory_mib=memory, limit_mib=limit):
-            return WARN, f"the arena was ended: {memory:.0f} MiB of memory, of {limit} MiB"
+            return (
+                WARN,
+                f"the arena was ended: it used {memory:.0f} MiB of memory, and the limit is {limit} MiB",
+            )
         case ev.GraphFlooded(reason=reason):
             return WARN, f"the ROS graph was flooded: {reason}"
         case ev.RecordDropped(what=what, count=count):
-            return WARN, f"{count} events not kept: {what}"
+            return WARN, f"{count} events were not recorded: {what}"
         case ev.TooLarge(what=what, bytes=size, limit=limit):
-            return WARN, f"{what} of {size} bytes not read, more than {limit}"
+            return WARN, f"{what} was not read: it has {size} bytes, and the limit is {limit}"
     return None
 
 
@@ -121,9 +124,9 @@ def _of_interfaces(event: Any) -> tuple[int, str] | None:
         case ev.ResultSent(goal=goal):
             return INFO, f"result of “{goal}” sent"
         case ev.ResultForgotten(goal=goal):
-            return INFO, f"result of “{goal}” forgotten"
+            return INFO, f"the grader's server drops the result of “{goal}”"
         case ev.Unanswered(what=what, id=name, waited=waited):
-            return WARN, f"no answer to the {what} “{name}” within {waited:.1f} s"
+            return WARN, f"no response to the {what} “{name}” within {waited:.1f} s"
     return None
 
 

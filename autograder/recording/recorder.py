@@ -14,17 +14,17 @@ from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.recording.entry import FORMAT, Entry
 from autograder.recording.interface_messages import InterfaceMessages
 from autograder.recording.kept import Recordings
-from autograder.recording.log_messages import Judged, log_messages, verdict_messages
+from autograder.recording.log_messages import RecordedVerdict, log_messages, verdict_messages
 from autograder.recording.mcap_file import mcap_file
 from autograder.recording.robot_messages import robot_messages, scene_of
 
-MOST_OF_A_SUBMISSION = 64 * 2**20  # bytes of all its recordings
+MAX_SUBMISSION_BYTES = 64 * 2**20  # of all recordings of a submission
 
 
 class Recorder:
-    """Receives each verdict with its transcripts; makes one recording of each scenario.
+    """Receives each verdict with its transcripts, and makes one recording of each scenario.
 
-    If a scenario ran more than once, the recorded run is one on which a point was lost, else the last judged one.
+    If a scenario ran more than once, a run on which a point was lost is recorded, else the last judged run.
 
     Args:
         exercise: the exercise, with the checks that are run.
@@ -36,7 +36,7 @@ class Recorder:
         self._checks = {check.id: check for check in exercise.checks if not (for_students and check.hidden)}
         self._shows_hidden = any(check.hidden for check in self._checks.values())
         self._runs: dict[Scenario, Transcript] = {}
-        self._lost: set[Scenario] = set()  # whose run is one on which a point was lost
+        self._lost: set[Scenario] = set()  # scenarios in whose recorded run a point was lost
         self._judged_on: dict[str, Sequence[Transcript]] = {}
 
     def add(self, verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> None:
@@ -53,9 +53,9 @@ class Recorder:
                 self._lost.add(scenario)
 
     def files(self, grade: Grade) -> Recordings:
-        """Make the recordings, up to the size limit, those with a lost point first.
+        """Make the recordings up to the size limit, first those in which a point was lost.
 
-        A recording that cannot be made is logged and left out, so that it does not affect the grade.
+        A recording that cannot be made is left out and the error is logged, so that the grade is not affected.
         """
         names = self._names()
         made: dict[str, bytes] = {}
@@ -67,9 +67,9 @@ class Recorder:
             except Exception:
                 logging.getLogger(__name__).exception("no recording %s", name)
                 continue
-            if size + len(content) > MOST_OF_A_SUBMISSION:
+            if size + len(content) > MAX_SUBMISSION_BYTES:
                 logging.getLogger(__name__).warning(
-                    "no recording %s: those of one submission are too large", name
+                    "no recording %s: the recordings of this submission are too large", name
                 )
                 continue
             size += len(content)
@@ -86,27 +86,29 @@ class Recorder:
         return mcap_file(self._entries(run, scenario, judged), self._metadata(run, scenario, grade))
 
     def _metadata(self, run: Transcript, scenario: Scenario, grade: Grade) -> dict[str, str]:
-        """Return what `course replay` and a viewer say about the recording."""
+        """Return the metadata that `course replay` and other viewers show."""
         return {
             "format": FORMAT,
             "exercise": grade.exercise,
             "student": grade.student,
             "scenario": scenario.name,
-            "namespace": scenario.namespace,  # of robot and student
+            "namespace": scenario.namespace,  # of the robot and the student's node
             "params": json.dumps(run.params),
             "seed": str(grade.seed),
             "scale": f"{run.scale:g}",  # how much faster than real time the arena's clock ran
-            "end": f"{run.end:.6f}",  # s on that clock
-            "scene": scene_of(run),  # "": there was no robot
+            "end": f"{run.end:.6f}",  # s on the arena's clock
+            "scene": scene_of(run),  # "" without a robot
             "shows_hidden_checks": "yes" if self._shows_hidden else "no",
         }
 
-    def _judged(self, verdict: CheckVerdict, scenario: Scenario, run: Transcript) -> Judged:
+    def _judged(self, verdict: CheckVerdict, scenario: Scenario, run: Transcript) -> RecordedVerdict:
         runs = self._judged_on.get(verdict.id, [run])
         others = [other.name for other in self._checks[verdict.id].on if other is not scenario]
-        return Judged(verdict, elsewhere=not any(run is one for one in runs), beside=others)
+        return RecordedVerdict(
+            verdict, from_another_run=not any(run is one for one in runs), other_scenarios=others
+        )
 
-    def _entries(self, run: Transcript, scenario: Scenario, judged: Sequence[Judged]) -> list[Entry]:
+    def _entries(self, run: Transcript, scenario: Scenario, judged: Sequence[RecordedVerdict]) -> list[Entry]:
         interfaces = InterfaceMessages(scenario.namespace)
         return [
             *robot_messages(run, scenario.namespace),

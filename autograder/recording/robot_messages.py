@@ -1,4 +1,4 @@
-"""Messages of the ground truth: postures at 25 Hz, and the robot's mode and battery when they change."""
+"""Makes messages of the ground truth: postures at 25 Hz, and the robot's mode and battery when they change."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TF = "/tf"
 
 
 def robot_messages(transcript: Transcript, namespace: str) -> Iterator[Entry]:
-    """Yield odom, joint_states, objects' poses and tf (where there are postures), robot_state and battery_state."""
+    """Yield robot_state and battery_state and, if postures were recorded, odom, joint_states, objects' poses and tf."""
     yield from _postures(transcript, namespace)
     yield from _states(transcript, full_name(namespace, "robot_state"))
     for event in transcript.all(ev.BatteryPublished):
@@ -28,7 +28,7 @@ def robot_messages(transcript: Transcript, namespace: str) -> Iterator[Entry]:
 
 
 def scene_of(transcript: Transcript) -> str:
-    """Return the scene of the robot, or "" if the record holds no postures."""
+    """Return the robot's scene; "" if the transcript has no postures."""
     return next((event.scene for event in transcript.postures if isinstance(event, ev.BodyDescribed)), "")
 
 
@@ -88,7 +88,7 @@ def _set_xyz(vector: Any, numbers: Sequence[float]) -> None:
 
 
 def _transforms(header: Header, poses: Mapping[str, Sequence[float]]) -> TFMessage:
-    """Return the poses of frames in the header's: x, y, z (m) and a quaternion (x, y, z, w) for each."""
+    """Return the poses of frames in the header's frame: x, y, z (m) and a quaternion (x, y, z, w) for each."""
     message = TFMessage()
     for child, pose in poses.items():
         stamped = TransformStamped(header=header, child_frame_id=child)

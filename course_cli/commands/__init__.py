@@ -1,1 +1,1 @@
-"""One module a command of `course`; `course_cli.app` lists them."""
+"""One module for each command of `course`; `course_cli.app` lists the commands."""

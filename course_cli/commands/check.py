@@ -1,4 +1,4 @@
-"""`course check`: students check their own work, with the visible checks and the engine that grades."""
+"""`course check`: students check their own work, with the visible checks and the grader's engine."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def check(
     file: Annotated[
         Path | None,
         typer.Argument(
-            help="your .py file, notebook or folder (default: your last work here, else in exercises/EXERCISE/)"
+            help="your .py file, notebook or folder (default: your latest file here, else in exercises/EXERCISE/)"
         ),
     ] = None,
     json_file: Annotated[Path | None, typer.Option("--json", help="write the verdicts to this file")] = None,
@@ -46,7 +46,7 @@ def check(
     with SubmissionArenas(scenario_file(exercise)) as arenas:
         if exercise in exercise_names() and path.exists():
             arenas.open_ahead()
-        # imported while the arena opens, to show the first verdict sooner
+        # The import runs while the arena opens, so that the first verdict comes sooner.
         from autograder.self_check import check_and_keep
 
         folder = Path("recordings") / exercise if record else None
@@ -57,14 +57,14 @@ def check(
         json_file.write_text(json.dumps(result.to_json(), indent=2) + "\n")
     if result.status == "not graded":
         console.print(
-            f"Next: ./course check {exercise} --jobs 1, when the machine has less to do.", markup=False
+            f"Next: ./course check {exercise} --jobs 1, when the machine is less busy.", markup=False
         )
         raise typer.Exit(NOT_GRADED)
     raise typer.Exit(0 if result.all_passed else COULD_NOT)
 
 
 def _show_rubric(console: Console, exercise: str, path: Path) -> None:
-    """Print that the file can be read, and the criteria by which a person marks it."""
+    """Print that the file can be read, and the criteria for a person's marks."""
     read_submission(path, exercise)
     console.print(f"{path} can be read. A person marks {exercise}, so nothing is checked here:", markup=False)
     for criterion in load_essay(exercise).criteria:

@@ -1,4 +1,4 @@
-"""`course lab`: JupyterLab in the clone."""
+"""`course lab`: starts JupyterLab in the clone."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from importlib.util import find_spec
 import typer
 from rich.console import Console
 
-from course_cli.ending import COULD_NOT, ended
+from course_cli.ending import COULD_NOT, error_exit
 from course_cli.work_folder import work_folder
 from ros_cli.real_ros2 import path_with_ros2
 from ros_runtime import notebook_domains
@@ -17,24 +17,27 @@ from ros_runtime.environment import ros_environment
 from ros_runtime.project import PROJECT, WORK_VARIABLE
 from ros_runtime.ros_domain import loopback_variables
 
-# Only what a student needs: nbgrader's "Validate" would run the notebook and call its own time limit a failed check.
+# Settings that turn off nbgrader's extensions: "Validate" would run the notebook, and report its timeout as a failure.
 CONFIGURATION = PROJECT / "course_cli" / "jupyter"
 HUB_TOKEN = "JUPYTERHUB_API_TOKEN"  # set by JupyterHub in the environment of a user's server
 
 
 def lab(context: typer.Context) -> None:
-    """Open JupyterLab on chapters and exercises, at the page that shows your progress.
+    """Open JupyterLab with the chapters and exercises, at the page that shows your progress.
 
-    The address is printed, too. Its terminals and cells have `ros2`. Further arguments go to JupyterLab:
-    --no-browser, --port 8890, --help-all. Where the course cannot be written, because several students share it, your
-    notebooks lie in ~/humanoid_course, or where COURSE_WORK says. Started by JupyterHub, it is that user's server.
+    The command also prints JupyterLab's address. The terminals and cells have the command `ros2`. Further arguments go
+    to JupyterLab: --no-browser, --port 8890, --help-all. If several students share the course and cannot write to it,
+    your notebooks are in ~/humanoid_course, or in the folder COURSE_WORK. If JupyterHub starts this command, it runs
+    the user's server.
     """
     try:
         folder = work_folder()
     except OSError as error:
-        reason = f"your notebooks cannot be kept: {error}.\nNext: COURSE_WORK=/a/folder/of/yours ./course lab"
-        raise ended(Console(), reason, COULD_NOT) from error
-    # Not a login shell, whose /etc/profile would take `ros2` off the PATH.
+        reason = (
+            f"your notebooks cannot be saved: {error}.\nNext: COURSE_WORK=/a/folder/of/yours ./course lab"
+        )
+        raise error_exit(Console(), reason, COULD_NOT) from error
+    # Terminals start no login shell, because /etc/profile would remove `ros2` from the PATH.
     terminals = {"shell_command": [os.environ.get("SHELL") or "bash"]}
     command = [
         *(sys.executable, "-m", _server()),
@@ -49,29 +52,33 @@ def lab(context: typer.Context) -> None:
 
 
 def _server() -> str:
-    """The module to run: JupyterLab by itself, or as a server of JupyterHub."""
+    """Return the module to run: JupyterLab alone, or JupyterHub's server for one user."""
     if HUB_TOKEN not in os.environ:
         return "jupyterlab"
     if find_spec("jupyterhub") is None:
         line = f"{PROJECT}/.venv/bin/uv pip install --python {PROJECT}/.venv/bin/python jupyterhub"
-        reason = f"JupyterHub starts this, and the course's environment lacks it.\nNext: {line}"
-        raise ended(Console(soft_wrap=True), reason, COULD_NOT)
+        reason = (
+            f"JupyterHub started this command, but the course's environment lacks jupyterhub.\nNext: {line}"
+        )
+        raise error_exit(Console(soft_wrap=True), reason, COULD_NOT)
     return "jupyterhub.singleuser"
 
 
 def lab_environment() -> dict[str, str]:
     """Return the environment of JupyterLab, its kernels and its terminals."""
-    # Notebooks and the terminals beside them behave alike: wrong field types are errors in both.
+    # In notebooks as in terminals, a field of the wrong type is an error.
     environment = {
         **os.environ,
         **ros_environment(),
         **loopback_variables(),
         **notebook_domains.lab_variables(),
     }
-    # It would override the profile that keeps nodes on this machine.
+    # This variable would override the profile that keeps nodes on this machine.
     environment.pop("ROS_AUTOMATIC_DISCOVERY_RANGE", None)
     environment["PATH"] = path_with_ros2(environment.get("PATH", os.defpath))
-    environment.pop("ROS_DOMAIN_ID", None)  # each notebook has its own, which `ros2` in a terminal joins
+    environment.pop(
+        "ROS_DOMAIN_ID", None
+    )  # each notebook has a domain of its own, which `ros2` in a terminal joins
     others = environment.get("JUPYTER_CONFIG_PATH")
     environment["JUPYTER_CONFIG_PATH"] = os.pathsep.join(filter(None, [str(CONFIGURATION), others]))
     return environment

@@ -1,4 +1,4 @@
-"""`course replay`: a recorded arena again."""
+"""`course replay`: shows a recorded arena."""
 
 from __future__ import annotations
 
@@ -9,32 +9,39 @@ import typer
 from rich.console import Console
 
 from autograder.recording.replay.film import film, require_known_format
-from autograder.recording.replay.recording import NoRecording, Recording, Span, require_postures, span_of
+from autograder.recording.replay.recording import (
+    Recording,
+    Span,
+    UnusableRecording,
+    require_postures,
+    span_of,
+)
 from autograder.recording.replay.text import line, time_line, title
-from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.ending import COULD_NOT, UNUSABLE, error_exit
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 
 def replay(
     file: Annotated[
-        Path, typer.Argument(help="what `check --record` or `grade --record` wrote, an .mcap file")
+        Path, typer.Argument(help="an .mcap file that `check --record` or `grade --record` wrote")
     ],
     film_file: Annotated[
-        Path | None, typer.Option("--film", metavar="OUT", help="write a film, .webp or .gif, and end")
+        Path | None,
+        typer.Option("--film", metavar="OUT", help="write a film, .webp or .gif, and show nothing"),
     ] = None,
-    text: Annotated[bool, typer.Option("--text", help="print what happened when, and end")] = False,
+    text: Annotated[bool, typer.Option("--text", help="print the events with their times")] = False,
     around: Annotated[
         str | None,
         typer.Option(
             metavar="CHECK",
-            help="show the seconds around the verdict of this check (default: the first that failed, else all)",
+            help="show the seconds around this check's verdict (default: the first failed check, else everything)",
         ),
     ] = None,
     seconds: Annotated[
-        float | None, typer.Option(help="how many seconds to show (around a check: 6)")
+        float | None, typer.Option(help="number of seconds to show (default around a verdict: 6)")
     ] = None,
-    camera: Annotated[str, typer.Option(help="of the film: track, side or front")] = "track",
-    port: Annotated[int, typer.Option(help="of the web view (default: the first free from 8080 on)")] = 0,
+    camera: Annotated[str, typer.Option(help="the film's camera: track, side or front")] = "track",
+    port: Annotated[int, typer.Option(help="the web view's port (default: the first free from 8080 on)")] = 0,
 ) -> None:
     """Show a recorded arena: in the web view, as a film, or as text."""
     console = Console(highlight=False)
@@ -56,9 +63,9 @@ def replay(
             return
         _in_the_browser(console, recording, span, port)
     except ValueError as error:
-        raise ended(console, error, UNUSABLE) from error
+        raise error_exit(console, error, UNUSABLE) from error
     except (NoOpenGLError, OSError) as error:
-        raise ended(console, error, COULD_NOT) from error
+        raise error_exit(console, error, COULD_NOT) from error
 
 
 def _in_the_browser(console: Console, recording: Recording, span: Span, port: int) -> None:
@@ -69,11 +76,11 @@ def _in_the_browser(console: Console, recording: Recording, span: Span, port: in
             recording,
             span,
             port,
-            ready=lambda url: console.print(f"view: {url}   (Ctrl-C ends it)", markup=False),
-            tell=lambda moment: console.print(line(moment)),
+            on_ready=lambda url: console.print(f"view: {url}   (stop with Ctrl-C)", markup=False),
+            on_moment=lambda moment: console.print(line(moment)),
         )
     except ImportError as error:
         reason = "the web view needs MuJoCo 4, which needs Python 3.11 or newer; use --film or --text"
-        raise ended(console, NoRecording(reason), COULD_NOT) from error
+        raise error_exit(console, UnusableRecording(reason), COULD_NOT) from error
     except KeyboardInterrupt:
         return

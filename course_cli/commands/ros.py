@@ -1,4 +1,4 @@
-"""`course ros`: the ros2 commands, where ros2cli is not installed."""
+"""`course ros`: runs the course's ros2 commands, which need no ros2cli."""
 
 from __future__ import annotations
 
@@ -8,5 +8,5 @@ from ros_cli.app import main
 
 
 def ros(context: typer.Context) -> None:
-    """Run a ros2 command; all arguments go to it, --help too."""
+    """Run a ros2 command with all arguments, including --help."""
     raise SystemExit(main(context.args, program="course ros"))

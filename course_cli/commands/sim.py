@@ -1,4 +1,4 @@
-"""`course sim`: the robot node alone."""
+"""`course sim`: runs the robot node alone."""
 
 from __future__ import annotations
 
@@ -9,6 +9,6 @@ import typer
 
 
 def sim(context: typer.Context) -> None:
-    """Run the robot node; all options go to it, --help too."""
-    # The node replaces this process, so that signals and the exit status are its own.
+    """Run the robot node with all options, including --help."""
+    # The node replaces this process, so that it receives the signals and sets the exit status.
     os.execv(sys.executable, [sys.executable, "-m", "robot_sim", *context.args])

@@ -1,1 +1,1 @@
-"""The archives that leave the clone: the students', and the one for Gradescope."""
+"""Writes two archives from a clone: the students' copy of the course, and the autograder for Gradescope."""

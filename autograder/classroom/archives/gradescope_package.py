@@ -1,6 +1,6 @@
-"""The zip that Gradescope takes as an autograder: its two scripts, and the part of the course that grades there.
+"""Writes the zip file for Gradescope's autograder: Gradescope's two scripts, and the part of the course that grades.
 
-It contains only visible checks, because a student's program runs in the same container.
+The zip file contains only visible checks, because a student's program runs in the same container.
 """
 
 from __future__ import annotations
@@ -41,14 +41,14 @@ export DEBIAN_FRONTEND=noninteractive
 exec "${{GRADESCOPE_ROOT:-/autograder}}/source/{TOP}/course" --help
 """
 _RUN = f"""#!/usr/bin/env bash
-# Gradescope runs this for every upload, as root: the launcher grades what lies in submission/.
+# Gradescope runs this for every upload, as root: the launcher grades the files in submission/.
 root=${{GRADESCOPE_ROOT:-/autograder}}
 exec "$root/source/{TOP}/course" gradescope --root "$root"
 """
 
 
 def write_package(root: Path, archive: Path, exercise: str = "") -> int:
-    """Write the package of the clone at `root`, for one exercise or for all; return how many files it holds.
+    """Write the package of the clone at `root`, for one exercise or for all; return the number of files in it.
 
     Raises `Leak` when a file contains a solution or a hidden check.
     """

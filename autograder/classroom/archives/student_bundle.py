@@ -1,4 +1,4 @@
-"""The students' archive: everything to read, run and check, without solutions and hidden checks."""
+"""Writes the students' archive: everything to read, run and check, without solutions and hidden checks."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ros_runtime.course_error import COULD_NOT, CourseError
 from ros_runtime.project import TOOLKIT
 
 TOP = "humanoid-course"  # the folder the archive unpacks to
-README = "docs/for_students.md"  # becomes their README.md; the clone's own is for instructors
+README = "docs/for_students.md"  # the archive's README.md; the clone's README.md is for instructors
 # What students see, and what other programs look for beside it: editors, Docker, Binder.
 SHOWN = (
     ".binder",
@@ -55,7 +55,7 @@ PARTS = (
 FOR_INSTRUCTORS = "autograder/classroom"  # `course` lists only commands whose modules exist
 CONTENTS = "chapters/README.md"  # its table lists the chapters and their exercises
 IGNORED = ".venv/\nbuild/\n__pycache__/\n"  # by git, in the repository of a student
-_DATED = (2026, 1, 1, 0, 0, 0)
+_ENTRY_DATE = (2026, 1, 1, 0, 0, 0)  # of every file, so that the same content gives the same archive
 
 
 class Leak(CourseError):
@@ -108,34 +108,34 @@ def require_no_leak(files: Mapping[str, Path]) -> None:
         found = next((word for word in forbidden if word.encode() in content), None)
         if found or path.name == "hidden.py":
             raise Leak(
-                f"{name} would show students {found or 'hidden checks'!r}; keep it back or take that out of it"
+                f"{name} would show students {found or 'hidden checks'!r}; leave the file out, or remove this text"
             )
 
 
 def hidden_check_ids() -> list[str]:
-    """Return the ids of the hidden checks, without those that another exercise has as a visible one."""
+    """Return the ids of the hidden checks, except ids that another exercise uses for a visible check."""
     checks = [check for name in exercise_names() for check in load_exercise(name, hidden=True).checks]
     shown = {check.id for check in checks if not check.hidden}
     return [check.id for check in checks if check.hidden and check.id not in shown]
 
 
 def visible_checks() -> Iterator[tuple[str, Path]]:
-    """Yield the modules with visible checks or a rubric, by the path at which a student's engine looks for them."""
+    """Yield each module with visible checks or a rubric, with the path in the archive where the engine finds it."""
     for exercise in all_names():
         for path in sorted((exercises_folder() / exercise).glob("*.py")):
             if path.name != "hidden.py" and path.name not in file_names(exercise):
                 yield f"checks/{exercise}/{path.name}", path
 
 
-def files_of(root: Path, parts: Sequence[str], kept_back: str = "") -> Iterator[Path]:
-    """Yield the files of these parts of a clone, without what is derived and without the folder that is kept back."""
+def files_of(root: Path, parts: Sequence[str], excluded: str = "") -> Iterator[Path]:
+    """Yield the files of these parts of a clone, without derived files and without the folder `excluded`."""
     for place in (place for part in parts for place in root.glob(part)):
         candidates = sorted(place.rglob("*")) if place.is_dir() else [place]
         for path in candidates:
             name = path.relative_to(root)
             is_hidden = name.parts[0] not in parts and any(part.startswith(".") for part in name.parts)
-            is_kept_back = bool(kept_back) and name.is_relative_to(kept_back)
-            if path.is_file() and not (is_hidden or is_kept_back or _is_derived(name)):
+            is_excluded = bool(excluded) and name.is_relative_to(excluded)
+            if path.is_file() and not (is_hidden or is_excluded or _is_derived(name)):
                 yield path
 
 
@@ -144,13 +144,13 @@ def _is_derived(path: Path) -> bool:
 
 
 def write_archive(archive: Path, files: Mapping[str, Path | str]) -> None:
-    """Write a zip; `files` maps paths in it to files, or to texts, which become executable scripts."""
+    """Write a zip file; `files` maps each path in it to a file, or to the text of an executable script."""
     archive.parent.mkdir(parents=True, exist_ok=True)
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as bundle:
         for name in sorted(files):
             source = files[name]
-            entry = zipfile.ZipInfo(name, date_time=_DATED)
-            runs = isinstance(source, str) or bool(source.stat().st_mode & stat.S_IXUSR)
-            entry.external_attr = (stat.S_IFREG | (0o755 if runs else 0o644)) << 16
+            entry = zipfile.ZipInfo(name, date_time=_ENTRY_DATE)
+            is_executable = isinstance(source, str) or bool(source.stat().st_mode & stat.S_IXUSR)
+            entry.external_attr = (stat.S_IFREG | (0o755 if is_executable else 0o644)) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
             bundle.writestr(entry, source if isinstance(source, str) else source.read_bytes())

@@ -16,19 +16,19 @@ from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation
 from ros_runtime.course_error import CourseError
 
-_Place = tuple[str, str, int | None]  # exercise, submission, seed: there is one run of each
+_Place = tuple[str, str, int | None]  # exercise, submission and seed, which identify a run
 
 
 class UnusableAuditRecord(CourseError):
-    """The file cannot be resumed."""
+    """The file cannot be read as the record of an earlier audit."""
 
 
 class AuditRecord:
-    """The runs of an audit by exercise, one per line; entries of an earlier audit stay until they are graded again.
+    """The runs of an audit by exercise, one per line; earlier runs stay until their submissions are graded again.
 
     An earlier run is reused if everything that its verdict depends on is unchanged: submission, checks, engine, robot,
-    seed, clock scale and isolation. Not reused: runs that were not graded, and runs whose submission was edited
-    meanwhile.
+    seed, clock scale and isolation. A run is not reused if the grader failed, or if the submission was edited while it
+    was graded.
     """
 
     def __init__(
@@ -39,7 +39,7 @@ class AuditRecord:
         scale: float | None = None,
         earlier: Iterable[dict[str, Any]] = (),
     ) -> None:
-        """`path`: None writes no file. `scale`: of the clock. `earlier`: the runs from `read_runs`."""
+        """`path`: the file to write, or None. `scale`: the clock scale. `earlier`: the runs from `read_runs`."""
         self.scale = scale
         self._path = path
         self._isolation = isolation
@@ -49,9 +49,9 @@ class AuditRecord:
     def earlier_run(
         self, known: KnownSubmission, exercise: Exercise, repetition: int, seed: int
     ) -> AuditedRun | None:
-        """Return the reusable earlier run with the inputs of `seed`, as this repetition; None if there is none.
+        """Return the earlier run with this seed, numbered as this repetition; None if no run can be reused.
 
-        Call it before grading: it stores the submission's hash, by which `add` notices later edits.
+        Call this before grading: it stores the submission's hash, so that `add` can detect later edits.
         """
         place = known.exercise, known.name, seed
         key = self._keys[place] = self._key(known, exercise, seed)
@@ -66,12 +66,12 @@ class AuditRecord:
         return run
 
     def add(self, run: AuditedRun, exercise: Exercise) -> None:
-        """Replace an earlier run of the same submission and seed by this one, and write the file."""
+        """Add a run, in place of an earlier run of the same submission and seed, and write the file."""
         self._put(run, exercise)
         self.write()
 
     def write(self) -> None:
-        """Write the file, if there is one."""
+        """Write the file, unless `path` is None."""
         if self._path:
             write_atomically(self._path, self._text())
 
@@ -95,10 +95,10 @@ class AuditRecord:
 
 
 def read_runs(path: Path) -> list[dict[str, Any]]:
-    """Return the runs in the file of an earlier audit; none, if it is not there.
+    """Return the runs in the file of an earlier audit; an empty list if the file does not exist.
 
     Raises:
-        UnusableAuditRecord: it is no such file.
+        UnusableAuditRecord: `course audit --json` did not write this file.
     """
     if not path.exists():
         return []
@@ -109,8 +109,8 @@ def read_runs(path: Path) -> list[dict[str, Any]]:
             _place(run), float(run["seconds"])
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise UnusableAuditRecord(
-            f"{path} is no file of course audit --json ({type(error).__name__}: {error}); name another one, "
-            "or leave out --resume to write it anew"
+            f"{path} was not written by course audit --json ({type(error).__name__}: {error}); name another file, "
+            "or leave out --resume to overwrite it"
         ) from error
     return runs
 

@@ -22,10 +22,12 @@ from whatthepatch.exceptions import WhatThePatchException
 from ros_runtime.course_error import CourseError
 
 SUFFIX = ".patch"
-LARGEST_SHARE = 0.6  # share of a program's lines; if more differ, the whole file is clearer than a diff
+MAX_CHANGED_SHARE = 0.6  # share of a program's lines; if more differ, the whole file is clearer than a diff
 _CONTEXT = 2  # lines around a change
-DOCSTRING = re.compile(r'\A(?:#.*\n|\s)*"""(.*?)"""\n?', re.DOTALL)  # also where the file does not parse
-_BEGINNING = re.compile(r"^--- (\S+)", re.MULTILINE)
+DOCSTRING = re.compile(
+    r'\A(?:#.*\n|\s)*"""(.*?)"""\n?', re.DOTALL
+)  # matches in files with syntax errors, too
+_DIFF_START = re.compile(r"^--- (\S+)", re.MULTILINE)
 
 
 class PatchError(CourseError):
@@ -34,21 +36,21 @@ class PatchError(CourseError):
 
 def header_of(text: str) -> str:
     """Return the text before the diff."""
-    found = _BEGINNING.search(text)
+    found = _DIFF_START.search(text)
     return text[: found.start()] if found else text
 
 
 def whole_program(path: Path) -> str:
     """Apply a patch in known/<kind>/ to the submission it names; return the program, with the patch's header.
 
-    Raises `PatchError`, saying what to do, when the patch does not apply.
+    Raises `PatchError` when the patch does not apply; the message says what to do.
     """
     text = path.read_text(encoding="utf-8")
-    found = _BEGINNING.search(text)
+    found = _DIFF_START.search(text)
     base = path.parents[1] / found[1] if found else path
     if not found or not base.is_file():
         raise PatchError(
-            f"{path} must name, after ---, the sound submission it changes, such as correct/class_based.py"
+            f"{path}: the line --- must name the correct submission to change, such as correct/class_based.py"
         )
     try:
         (change,) = whatthepatch.parse_patch(text[found.start() :])
@@ -61,10 +63,10 @@ def whole_program(path: Path) -> str:
     return f'"""{header_of(text).strip()}\n"""\n' + "\n".join(body) + "\n"
 
 
-def as_patch(program: Path, sound: Sequence[Path]) -> str | None:
-    """Return the shortest patch from one of the programs `sound` to `program`; None if they share too little."""
+def as_patch(program: Path, correct: Sequence[Path]) -> str | None:
+    """Return the shortest patch that turns a `correct` program into `program`; None if too many lines differ."""
     docstring = DOCSTRING.match(program.read_text(encoding="utf-8"))
-    if docstring is None or not sound:
+    if docstring is None or not correct:
         return None
     body = _below_the_docstring(program).splitlines()
 
@@ -73,8 +75,8 @@ def as_patch(program: Path, sound: Sequence[Path]) -> str | None:
         before = _below_the_docstring(base).splitlines()
         return list(difflib.unified_diff(before, body, old, new, n=_CONTEXT, lineterm=""))
 
-    shortest = min(map(changes_from, sound), key=len)
-    if len(shortest) > LARGEST_SHARE * len(body):
+    shortest = min(map(changes_from, correct), key=len)
+    if len(shortest) > MAX_CHANGED_SHARE * len(body):
         return None
     return docstring[1].strip() + "\n\n" + "\n".join(shortest) + "\n"
 

@@ -8,21 +8,21 @@ from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from autograder.classroom.audit.run import AuditedRun, checks_without_a_killer
+from autograder.classroom.audit.run import AuditedRun, unproved_checks
 from autograder.engine.exercise import Exercise
 from autograder.report.table import MARKS
 
-KILL = ("✗", "bold green")  # failed as its header says it must
-CONSEQUENCE = ("✗", "cyan")  # failed as its header says it may
-SURPRISE = "bold white on red"
+KILL = ("✗", "bold green")  # a check failed that must fail, by the submission's header
+CONSEQUENCE = ("✗", "cyan")  # a check failed that may fail, by the submission's header
+SURPRISE = "bold white on red"  # the verdict is not as the header says
 
 
 def print_progress(console: Console, run: AuditedRun, *, earlier: bool = False) -> None:
-    """Print one finished run, with each difference from the expected verdict; `earlier`: reused from a record."""
+    """Print one finished run, with each difference from the expected verdict; `earlier`: it is reused from a record."""
     surprises = run.surprises()
     mark, colour = ("✗", "red") if surprises else ("✓", "green")
     score = run.grade.score if run.grade.score is not None else "not graded"
-    facts = f"{score}/{run.grade.max_score}  {run.seconds:.0f} s{'  (kept)' if earlier else ''}"
+    facts = f"{score}/{run.grade.max_score}  {run.seconds:.0f} s{'  (reused)' if earlier else ''}"
     console.print(Text.assemble((f"{mark} ", colour), f"{run.known.name}  ", (facts, "dim")))
     for surprise in surprises:
         console.print(Text(f"    {surprise}", colour))
@@ -59,8 +59,8 @@ def figures(runs: Sequence[AuditedRun], exercise: Exercise) -> list[str]:
         f"unexpected failures: {_unexpected(others)} in {len(others)} runs of faulty and hostile ones",
         f"not graded: {sum(run.grade.status == 'not graded' for run in runs)} of {len(runs)}",
     ]
-    if unproved := checks_without_a_killer(runs, exercise):
-        lines.append(f"checks without a killer: {', '.join(unproved)}")
+    if unproved := unproved_checks(runs, exercise):
+        lines.append(f"checks that caught no fault: {', '.join(unproved)}")
     return lines
 
 
@@ -83,16 +83,18 @@ def _cell(run: AuditedRun, check_id: str) -> Text:
 def _legend(runs: Sequence[AuditedRun], exercise: Exercise) -> RenderableType:
     legend = Table.grid(padding=(0, 2, 0, 0))
     for number, check in enumerate(exercise.checks, start=1):
-        killers = {run.known.name for run in runs if check.id in run.known.caught_by}
-        legend.add_row(str(number), check.id, "hidden" if check.hidden else "", f"named by {len(killers)}")
+        submissions = {run.known.name for run in runs if check.id in run.known.caught_by}
+        legend.add_row(
+            str(number), check.id, "hidden" if check.hidden else "", f"must catch {len(submissions)}"
+        )
     key = Text.assemble(
         "✓ passed  ",
         ("✗", KILL[1]),
-        " caught it  ",
+        " caught the fault  ",
         ("✗", CONSEQUENCE[1]),
-        " consequence  – not run  ! not judged  ",
+        " consequence of the fault  – not run  ! not judged  ",
         (" red ", SURPRISE),
-        " not as known",
+        " not as expected",
     )
     return Group(legend, key)
 

@@ -1,9 +1,10 @@
-"""A submission whose verdict is known beforehand: the header in its first docstring states it.
+"""A submission whose verdict is known beforehand and stated in a header.
 
-The header of a patch is the text before the diff; that of a folder is its about.md.
+The header of a program is its first docstring, the header of a patch is the text before the diff, and the header of a
+folder is its about.md.
 
 correct:  Style: how it is written
-faulty:   Fault: the mistake (M2)            the number of the misconception, where it has one
+faulty:   Fault: the mistake (M2)            M2 is the number of the misconception, if it has one
           Caught by: check_id, check_id      each must fail
           Also fails: check_id               may fail as a consequence of the same fault
 hostile:  Attack: what it tries
@@ -26,7 +27,7 @@ from autograder.engine.exercise import exercises_folder, file_names
 from autograder.engine.submission import Submission, read_submission
 from ros_runtime.course_error import CourseError
 
-KNOWN = "known"  # their folder, in an exercise's
+KNOWN = "known"  # the folder of known submissions in an exercise's folder
 ABOUT = "about.md"
 
 Kind = Literal["correct", "faulty", "hostile"]
@@ -52,7 +53,7 @@ class KnownSubmission:
 
     @property
     def name(self) -> str:
-        """Its name in tables, such as faulty/no_cancel_callback."""
+        """The name in tables, such as faulty/no_cancel_callback."""
         return f"{self.kind}/{self.path.stem}"
 
     def read(self) -> Submission:
@@ -133,7 +134,9 @@ def _kind(path: Path) -> Kind:
     for kind in get_args(Kind):
         if path.parent.name == kind:
             return kind
-    raise HeaderError(f"{path} lies in {path.parent.name!r}; expected one of {', '.join(get_args(Kind))}")
+    raise HeaderError(
+        f"{path} is in the folder {path.parent.name!r}; expected one of {', '.join(get_args(Kind))}"
+    )
 
 
 def _parse(docstring: str) -> dict[str, str]:
@@ -158,7 +161,7 @@ def _ids(header: Mapping[str, str], key: str) -> tuple[str, ...]:
 def _require_an_expectation(known: KnownSubmission, header: Mapping[str, str]) -> None:
     if known.kind == "correct":
         if known.caught_by or known.also_fails:
-            raise HeaderError(f"{known.path} is said to be correct, and to fail a check")
+            raise HeaderError(f"{known.path} is in correct/, but its header says that a check fails")
     elif known.kind == "faulty" and not known.caught_by:
         raise HeaderError(f'{known.path} needs a line "Caught by: check_id"')
     elif known.kind == "hostile" and not header.get("Outcome"):

@@ -23,26 +23,27 @@ from autograder.isolation.process_tree import descendants
 
 _PR_SET_CHILD_SUBREAPER = 36
 _SHARED_MEMORY = Path("/dev/shm")
-# How files in shared memory begin that a node leaves. LTTng's are kept, by design, for each user who ever ran one.
-_MIDDLEWARES = ("fastrtps", "fastdds", "sem.")
+# The beginnings of the names of files that a node leaves in shared memory. LTTng keeps its files there by design.
+_NODE_FILE_PREFIXES = ("fastrtps", "fastdds", "sem.")
 
 
 @contextmanager
-def leftovers(patience: float = 5.0) -> Iterator[list[str]]:
+def leftovers(timeout: float = 5.0) -> Iterator[list[str]]:
     """Yield a list that is filled when the block ends: one description for each new leftover.
 
-    Processes that were ended get `patience` s to disappear.
+    Processes that were ended have `timeout` s to disappear.
     """
-    ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)  # orphans become our children, and are found
-    before, left = {*_seen(), *(f"file {path}" for path in _of_nodes())}, list[str]()
+    # Orphaned processes become children of this process, so that `descendants` finds them.
+    ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+    before, left = {*_resources(), *(f"file {path}" for path in _node_files())}, list[str]()
     yield left
-    deadline = time.monotonic() + patience
-    while (now := _seen() - before) and time.monotonic() < deadline:
+    deadline = time.monotonic() + timeout
+    while (now := _resources() - before) and time.monotonic() < deadline:
         time.sleep(0.05)
     left += sorted(now)
 
 
-def _seen() -> set[str]:
+def _resources() -> set[str]:
     return {*_processes(), *_mounts(), *_files(), *_locks(), *_groups()}
 
 
@@ -51,9 +52,9 @@ def _processes() -> Iterator[str]:
         try:
             name = Path(f"/proc/{pid}/comm").read_text().strip()
             state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
-        except OSError:  # it has ended just now
+        except OSError:  # the process has just ended
             continue
-        if state != "Z":  # one that has ended waits for the system's first process, in whose place we are
+        if state != "Z":  # a zombie has ended: it waits to be reaped, which init does for other processes
             yield f"process {pid}, {name}"
 
 
@@ -71,26 +72,26 @@ def _files() -> Iterator[str]:
 
 
 def _abandoned() -> Iterator[Path]:
-    """Yield the files that nodes have left in shared memory: those that no process has mapped."""
-    found = list(_of_nodes())
+    """Yield the files in shared memory that nodes have left behind, which no process has mapped."""
+    found = list(_node_files())
     mapped = _mapped() if found else set()
     for path in found:
-        with suppress(FileNotFoundError):  # it has gone just now
+        with suppress(FileNotFoundError):  # the file was just removed
             status = path.stat()
             if (os.major(status.st_dev), os.minor(status.st_dev), status.st_ino) not in mapped:
                 yield path
 
 
-def _of_nodes() -> Iterator[Path]:
+def _node_files() -> Iterator[Path]:
     if _SHARED_MEMORY.is_dir():
-        yield from (path for path in _SHARED_MEMORY.iterdir() if path.name.startswith(_MIDDLEWARES))
+        yield from (path for path in _SHARED_MEMORY.iterdir() if path.name.startswith(_NODE_FILE_PREFIXES))
 
 
 def _mapped() -> set[tuple[int, int, int]]:
-    """Return the files in shared memory that processes have mapped, each as its device's two numbers and its own."""
+    """Return the files in shared memory that processes have mapped, as device major, device minor and inode."""
     files = set()
     for maps in Path("/proc").glob("[0-9]*/maps"):
-        with suppress(OSError):  # it has ended, or is another user's
+        with suppress(OSError):  # the process has ended, or belongs to another user
             for line in maps.read_text().splitlines():
                 _, _, _, device, number, *path = line.split(maxsplit=5)
                 if path and path[0].startswith(str(_SHARED_MEMORY)):
@@ -108,7 +109,7 @@ def _is_ours(name: str) -> bool:
 
 
 def _locks() -> Iterator[str]:
-    """Yield the locks of ROS domains, among others, that this process holds."""
+    """Yield the file locks that this process holds, such as those on ROS domains."""
     for line in Path("/proc/locks").read_text().splitlines():
         kind, _, _, pid, where = line.replace("->", "").split()[1:6]
         if kind == "FLOCK" and int(pid) == os.getpid():

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 class AuditedRun:
     """One grading of a known submission; `seconds` is its wall time.
 
-    `for_any_fault` are the checks (ids) that any faulty submission may fail: they judge sequences that are drawn.
+    `for_any_fault` has the ids of checks that any faulty submission may fail, because they judge random sequences.
     """
 
     known: KnownSubmission
@@ -47,8 +47,8 @@ class AuditedRun:
     def missed(self) -> list[str]:
         """Return the checks that had to fail and did not.
 
-        A hostile one may fail a check of its "Also fails" first, so that the check which catches it is not run. That
-        counts as caught: when the effect of a flood shows depends on the machine.
+        A hostile submission may first fail a check of its "Also fails", so that a check of "Caught by" is not run. That
+        counts as caught, because the machine's speed decides when a flood of data takes effect.
         """
         failed = ["failed"]
         if self.known.kind == "hostile" and set(self.failed()) & set(self.known.also_fails):
@@ -56,7 +56,7 @@ class AuditedRun:
         return [check_id for check_id in self.known.caught_by if self.status(check_id) not in failed]
 
     def unexpected(self) -> list[str]:
-        """Return the checks that failed although the header does not name them: false failures, if it is correct."""
+        """Return the checks that failed although the header does not name them: false failures of a correct program."""
         named = {*self.known.caught_by, *self.known.also_fails}
         if self.known.caught_by:
             named.update(self.for_any_fault)
@@ -66,7 +66,9 @@ class AuditedRun:
         """Describe each difference from the expected verdict; empty if there is none."""
         words = [f"{check_id} did not catch it ({self.status(check_id)})" for check_id in self.missed()]
         for check in self.grade.checks:
-            if check.status == "error" and "was not graded" not in check.help:  # the first cause only
+            if (
+                check.status == "error" and "was not graded" not in check.help
+            ):  # only the first cause is reported
                 words.append(f"{check.id} could not be judged: {check.help.splitlines()[0]}")
             elif check.id in self.unexpected():
                 words.append(f"{check.id} failed: expected {check.expected}; observed {check.observed}")
@@ -77,7 +79,7 @@ class AuditedRun:
         return words
 
     def to_json(self) -> dict[str, Any]:
-        """Return what `course audit --json` writes of this run."""
+        """Return what `course audit --json` writes about this run."""
         return {
             "submission": self.known.name,
             "about": self.known.about,
@@ -103,11 +105,12 @@ def audit(
 ) -> list[AuditedRun]:
     """Grade each submission `repeat` times with `jobs` parallel arenas; retry submissions without a grade once, alone.
 
-    Runs that `record` has already are reused; all others are added to it. `report` gets each run when it is there, and
-    whether it was reused. `grade_one` grades a submission; None: `audit_one`. All runs are returned, in the order of
-    the submissions.
+    Runs that `record` has already are reused; all others are added to it. `report` is called with each finished run and
+    with whether it was reused. `grade_one` grades a submission; None: `audit_one`. All runs are returned, in the order
+    of the submissions.
 
-    Faulty submissions share arenas, one after another; all others, and those that are graded alone, have their own.
+    Faulty submissions share arenas, one after another. All other submissions, and those that are retried alone, have
+    arenas of their own.
     The scenarios' inputs are drawn with `seed`, `seed` + 1, … for the repetitions. Ctrl-C ends the running arenas at
     once.
     """
@@ -163,8 +166,8 @@ def audit_one(
 ) -> AuditedRun:
     """Grade one submission, one arena at a time.
 
-    `checks_without_retry`: the checks that need not fail twice. `arenas`: those of `SharedArenas`; None: its own.
-    `stop`: ends them at once when it is set.
+    `checks_without_retry`: the checks that are not retried when they fail. `arenas`: the arenas to use, from
+    `SharedArenas`; None: new ones. `stop`: ends the arenas at once when it is set.
     """
     started = time.monotonic()
     options = GradingOptions(
@@ -179,8 +182,8 @@ def for_any_fault(exercise: Exercise) -> frozenset[str]:
     return frozenset(check.id for check in exercise.checks if check.can_catch_any_fault)
 
 
-def checks_without_a_killer(runs: Sequence[AuditedRun], exercise: Exercise) -> list[str]:
-    """Return the checks that failed for none of the submissions that name them, so that nothing proves their use."""
+def unproved_checks(runs: Sequence[AuditedRun], exercise: Exercise) -> list[str]:
+    """Return the checks that failed for no submission that names them, so that the audit does not prove their use."""
     proved = {
         check_id for run in runs for check_id in run.known.caught_by if run.status(check_id) == "failed"
     }
@@ -188,9 +191,9 @@ def checks_without_a_killer(runs: Sequence[AuditedRun], exercise: Exercise) -> l
 
 
 class SharedArenas:
-    """Lends arenas to one faulty submission after another; those of an exercise are closed after its last.
+    """Lends an exercise's arenas to one faulty submission after another, and closes them after the last one.
 
-    A context manager, which closes what is still open.
+    As a context manager, it closes the arenas that are still open.
     """
 
     def __init__(self, submissions: Iterable[KnownSubmission]) -> None:
@@ -210,7 +213,7 @@ class SharedArenas:
 
     @contextmanager
     def lent_to(self, known: KnownSubmission, exercise: Exercise) -> Iterator[SubmissionArenas | None]:
-        """Yield the shared arenas for a faulty submission; None for any other, which needs its own."""
+        """Yield the shared arenas for a faulty submission; None for any other, which needs arenas of its own."""
         if known.kind != "faulty":
             yield None
             return

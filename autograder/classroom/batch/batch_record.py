@@ -1,4 +1,4 @@
-"""batch.json: when, where and with which versions each submission was graded. It makes a grade reproducible later."""
+"""batch.json: when, where and with which versions each submission was graded, so that a grade can be reproduced."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ class Row:
     """One graded submission.
 
     Attributes:
-        program: SHA-256 of each file as the grader read it, by its name; empty when it could not be read.
-        version: of the exercise's checks and the engine, as `batch.version` computes it.
-        began, ended, host, processor_seconds, arenas, scenarios: of the run that produced the grade, also if that was
-            an earlier batch; "" and 0 if the worker was lost.
+        program: SHA-256 of each submitted file, by file name; empty if the submission could not be read.
+        version: hash of the exercise's checks and the engine, as `batch.version` computes it.
+        began, ended, host, processor_seconds, arenas, scenarios: of the run that produced the grade, even if that run
+            was in an earlier batch; "" and 0 if the worker was lost.
     """
 
     student: str
@@ -82,15 +82,16 @@ class BatchRecord:
 
     Attributes:
         state: "running" stays in the file if the batch is killed.
-        began, ended: UTC, ISO 8601, of the last run; `ended` is None until then.
+        began, ended: start and end of the last run, UTC, ISO 8601; `ended` is None while the batch is running.
         seed, seed_per_student, seed_per_submission: see `Seeds`; they draw the inputs of hidden checks.
-        isolation: the kind of isolation on the machine or the cluster.
-        jobs: how many submissions were graded at a time.
+        isolation: the label of the isolation on the machine or the cluster.
+        jobs: number of submissions that were graded in parallel.
         cluster: address of the Dask scheduler, or "".
         shard: "K/N", or "".
-        toolkit, course: commits of the clone and of exercises that are kept elsewhere.
-        rows: every submission that has a grade in `out`, also from earlier runs.
-        left_aside, refused: sentences on files that are no submission.
+        toolkit: commit of the clone.
+        course: commit of the exercises, if they are in another repository.
+        rows: every submission that has a grade in the output folder, also from earlier runs.
+        left_aside, refused: sentences on files and folders that were not graded.
     """
 
     state: State
@@ -145,8 +146,8 @@ class BatchRecord:
             "seed of hidden checks": self.seeds.in_words(),
             "isolation": self.isolation,
             "machines": ", ".join(self.hosts) or "none",
-            "what it took": f"{seconds:,.0f} processor-seconds in {sum(row.arenas for row in self.rows):,} arenas",
-            "toolkit": self.toolkit or "in no git repository",
+            "processor time": f"{seconds:,.0f} s in {sum(row.arenas for row in self.rows):,} arenas",
+            "toolkit": self.toolkit or "not in a git repository",
             **({"course": self.course} if self.course else {}),
             "checks and engine": ", ".join(versions),
         }
@@ -156,7 +157,7 @@ class BatchRecord:
         return replace(self, state=state, ended=utc_now())
 
     def to_json(self) -> dict[str, Any]:
-        """Return what is written: sums first, then what they are made of."""
+        """Return the record as JSON: the totals first, then the rows."""
         record = asdict(self)
         rows = record.pop("rows")
         sums = {
@@ -180,7 +181,7 @@ _RECORDS = TypeAdapter(BatchRecord)
 
 
 def write_batch(folder: Path, record: BatchRecord) -> None:
-    """Write batch.json, whole or not at all."""
+    """Write batch.json atomically."""
     write_atomically(folder / BATCH, json.dumps(record.to_json(), indent=2) + "\n")
 
 
@@ -193,7 +194,7 @@ def read_batch(folder: Path) -> BatchRecord | None:
 
 
 def merged_record(folders: Sequence[Path]) -> BatchRecord | None:
-    """Return the record of shards together; None if one of them has none."""
+    """Return one record for all shards; None if a shard has no record."""
     records = [record for record in map(read_batch, folders) if record]
     if len(records) < len(folders):
         return None

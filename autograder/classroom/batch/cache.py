@@ -1,4 +1,4 @@
-"""A cache of grades, with which an interrupted batch is resumed."""
+"""A cache of grades, from which an interrupted batch is resumed."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _EFFORTS = TypeAdapter(Effort)
 
 
 @dataclass(frozen=True)
-class Known:
+class CachedGrade:
     """An earlier grade, with the effort of the run that produced it."""
 
     grade: Grade
@@ -44,16 +44,16 @@ def grade_key(submission: Submission, exercise: Exercise, seed: int, isolation: 
 
 
 class GradeCache:
-    """Grades on disk, keyed by what they depend on: sources, checks, seed of the scenario inputs, isolation.
+    """Grades on disk, keyed by everything that they depend on: sources, checks, seed of the inputs, isolation.
 
-    A submission that could not be graded is never cached.
+    The grade of a submission that could not be graded is never cached.
     """
 
     def __init__(self, folder: Path, isolation: Isolation) -> None:
         self._folder = folder
         self._isolation = isolation
 
-    def get(self, submission: Submission, exercise: Exercise, seed: int) -> Known | None:
+    def get(self, submission: Submission, exercise: Exercise, seed: int) -> CachedGrade | None:
         """Return the cached grade of a submission with the same sources, under this student's name.
 
         A damaged entry counts as missing.
@@ -68,9 +68,9 @@ class GradeCache:
             return None
         if grade.status != "graded" or grade.exercise != exercise.name:
             return None
-        return Known(dataclasses.replace(grade, student=submission.student), effort)
+        return CachedGrade(dataclasses.replace(grade, student=submission.student), effort)
 
-    def put(self, submission: Submission, exercise: Exercise, seed: int, known: Known) -> None:
+    def put(self, submission: Submission, exercise: Exercise, seed: int, known: CachedGrade) -> None:
         """Cache a grade."""
         if known.grade.status != "graded":
             return

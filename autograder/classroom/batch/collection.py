@@ -17,7 +17,7 @@ from ros_runtime.course_error import CourseError
 
 STUDENT = re.compile(r"[\w@+][\w@+.,' -]*")  # names that nbgrader, file systems and shells accept
 _SECRET = re.compile("[0-9a-f]{128}")
-MOST_NAMED = 5  # files listed for a student without a submission
+MAX_LISTED_FILES = 5  # files listed for a student without a submission
 LAYOUT = "SUBMITTED/<student>/<exercise>/<exercise>.ipynb or SUBMITTED/<student>/<exercise>.py"
 
 
@@ -27,13 +27,13 @@ class NoSubmissions(CourseError):
 
 @dataclass(frozen=True)
 class Work:
-    """One student's submission for one exercise; without candidates the exercise's folder has no usable file."""
+    """One student's submission for one exercise; `candidates` is empty if its folder has no usable file."""
 
     student: str
     exercise: str
     candidates: tuple[Candidate, ...] = ()
     timestamp: str = ""  # as in the timestamp.txt of nbgrader's collect
-    secret: str = ""  # from submission_secret.txt; nbgrader returns feedback by it
+    secret: str = ""  # from submission_secret.txt, which nbgrader needs to return feedback
 
     def read(self) -> Submission:
         """Read the submission; raises UnusableSubmission, which says what is wrong with it."""
@@ -49,7 +49,7 @@ class Work:
 
     @property
     def left_aside(self) -> list[str]:
-        """A sentence on each other file of this exercise that has different content and is not graded."""
+        """A sentence on each file of this exercise that differs from the graded one and is not graded."""
         return [f"{self.student}: {line}" for line in self._choice[1]] if self.candidates else []
 
     @cached_property
@@ -57,7 +57,7 @@ class Work:
         return choose_work(self.candidates)
 
     def files(self) -> list[Path]:
-        """Return the files that may be read."""
+        """Return the files of all candidates; they are readable files on this machine."""
         files = (file for candidate in self.candidates for file in candidate.files.values())
         return [file.path for file in files if isinstance(file, OwnFile)]
 
@@ -66,7 +66,7 @@ class Work:
 class Collection:
     """The submissions found, in order of student and exercise.
 
-    `ignored` lists what else is in the folder, `refused` the student folders with unusable names, as sentences.
+    `ignored` has sentences on other files and folders, `refused` on students' folders that cannot be used.
     """
 
     works: Sequence[Work]
@@ -88,7 +88,7 @@ def collect(folder: Path) -> Collection:
             ignored.append(f"{student.name!r} is not a folder with a student's work")
         elif not STUDENT.fullmatch(student.name):
             refused.append(
-                f"the folder {student.name!r}: rename it to letters, digits and . , _ - @ + ' only"
+                f"rename the folder {student.name!r}: only letters, digits and . , _ - @ + ' are allowed"
             )
         else:
             try:
@@ -98,10 +98,10 @@ def collect(folder: Path) -> Collection:
                 continue
             works |= found
             if not found:
-                there = ", ".join(path.name for path in _visible(student)[:MOST_NAMED]) or "nothing"
+                there = ", ".join(path.name for path in _visible(student)[:MAX_LISTED_FILES]) or "nothing"
                 without.append(f"{student.name} handed in none of the exercises; their folder holds {there}")
     if without:
-        ignored += [*without, f"the exercises, by which files are named: {', '.join(files)}"]
+        ignored += [*without, f"a file must have the name of an exercise: {', '.join(files)}"]
     if not works and not refused:
         raise NoSubmissions(f"found nothing to grade in {folder}; expected {LAYOUT}")
     return Collection([works[key] for key in sorted(works)], ignored, refused)
@@ -131,7 +131,7 @@ def _timestamp(folder: Path) -> str:
     try:
         text = _beginning(folder / "timestamp.txt").decode().strip()
         parse_utc(text)
-    except Exception:  # a date can be malformed in many ways; without one no points are lost
+    except Exception:  # a malformed date can raise many errors; a missing date costs no points
         return ""
     return text
 

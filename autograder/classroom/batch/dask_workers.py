@@ -1,4 +1,4 @@
-"""Workers of a Dask cluster. `distributed` is imported only here, and only when it is asked for."""
+"""Workers of a Dask cluster. `distributed` is imported only here, and only for `course grade --dask`."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from autograder.classroom.batch.worker_pool import Workers
 from autograder.isolation.availability import Isolation, available_isolation
 from ros_runtime.course_error import COULD_NOT, CourseError
 
-AT_A_TIME = 1000  # jobs submitted ahead, so that an adaptive cluster sees the demand and grows
-_PATIENCE = 30.0  # s for the scheduler to answer and for a first worker
+MAX_UNFINISHED_JOBS = 1000  # jobs submitted ahead, so that an adaptive cluster sees the demand and grows
+_CONNECT_TIMEOUT = 30.0  # s, to connect to the scheduler and for the first worker to join
 
 
 class NoCluster(CourseError):
-    """There is no cluster to work on; the message says why, and what to do."""
+    """The cluster cannot be used; the message says why, and what to do."""
 
     exit_status = COULD_NOT
 
 
 @dataclass(frozen=True)
 class Cluster:
-    """The workers that may grade, the isolation they have, and a sentence on each that is left out."""
+    """The workers that may grade, their isolation and number, and a sentence on each worker that is left out."""
 
     workers: Workers
     isolation: Isolation
@@ -34,12 +34,13 @@ class Cluster:
 
 @contextmanager
 def dask_cluster(address: str) -> Iterator[Cluster]:
-    """Connect to a scheduler and ask each worker for its isolation.
+    """Connect to a scheduler and query each worker's isolation.
 
-    If only some workers are isolated, only those grade. Each job checks its worker again, for workers that join later.
+    If only some workers are isolated, only those grade. Each job checks its worker again, because workers may join
+    later.
 
     Raises:
-        NoCluster: `distributed` is not installed, nobody answers, or no worker is there.
+        NoCluster: `distributed` is not installed, no scheduler responds, or the cluster has no usable worker.
     """
     try:
         from distributed import Client
@@ -47,14 +48,14 @@ def dask_cluster(address: str) -> Iterator[Cluster]:
         install = f"{sys.executable} -m uv pip install --python {sys.executable} -c requirements.lock dask distributed"
         raise NoCluster(f"--dask needs the package distributed: {install}") from error
     try:
-        client = Client(address, timeout=_PATIENCE, set_as_default=False)
+        client = Client(address, timeout=_CONNECT_TIMEOUT, set_as_default=False)
     except (OSError, ValueError) as error:
         raise NoCluster(
-            f"no Dask scheduler answers at {address} ({error}); start one with: dask scheduler"
+            f"no Dask scheduler responds at {address} ({error}); start one with: dask scheduler"
         ) from error
     with client:
         try:
-            client.wait_for_workers(1, timeout=_PATIENCE)
+            client.wait_for_workers(1, timeout=_CONNECT_TIMEOUT)
         except (TimeoutError, asyncio.TimeoutError) as error:  # two classes before Python 3.11
             raise NoCluster(
                 f"the scheduler at {address} has no worker; start one in a clone: .venv/bin/dask worker {address}"
@@ -73,10 +74,10 @@ def _cluster(client: object, found: dict[str, Isolation]) -> Cluster:
     isolated = [worker for worker, isolation in found.items() if isolation.trusted]
     chosen = isolated or list(found)
     left_out = tuple(
-        f"the worker {worker} has no isolation and gets no work: {found[worker].reason}"
+        f"the worker {worker} has no isolation and gets no jobs: {found[worker].reason}"
         for worker in found
         if worker not in chosen
     )
     only = {"workers": chosen} if left_out else {}
-    workers = Workers(lambda: client.get_executor(pure=False, **only), AT_A_TIME)  # type: ignore[attr-defined]
+    workers = Workers(lambda: client.get_executor(pure=False, **only), MAX_UNFINISHED_JOBS)  # type: ignore[attr-defined]
     return Cluster(workers, found[chosen[0]], len(chosen), left_out)

@@ -14,7 +14,7 @@ class Effort:
     Attributes:
         began, ended: UTC, ISO 8601.
         host: the machine's name.
-        processor_seconds: of all processes of its arenas; sampled, so it misses a part of killed processes.
+        processor_seconds: of all processes in its arenas; sampled, so the last moments of killed processes are missing.
         arenas: number of arenas opened.
         scenarios: number of scenario runs, including retries.
     """
@@ -34,5 +34,5 @@ def without_arena() -> Effort:
 
 
 def utc_now() -> str:
-    """Return the time of day, UTC, ISO 8601."""
+    """Return the present date and time, UTC, ISO 8601."""
     return datetime.now(timezone.utc).isoformat(timespec="seconds")

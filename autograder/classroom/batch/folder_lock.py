@@ -1,4 +1,4 @@
-"""One grader at a time for an output folder."""
+"""Locks an output folder, so that only one process at a time grades into it."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ class FolderInUse(CourseError):
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Lock the folder, and create it if it is missing; the lock goes with the process, even after a crash.
+    """Lock the folder, and create it if it is missing; the lock ends with the process, even when it crashes.
 
     Raises:
-        FolderInUse: another process holds it.
+        FolderInUse: another process holds the lock.
     """
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / LOCK).open("a+", encoding="utf-8") as file:
@@ -35,7 +35,7 @@ def locked(folder: Path) -> Iterator[None]:
             file.seek(0)
             raise FolderInUse(
                 f"{folder} is in use by another `course grade`, {file.read().strip() or 'which has just begun'}; wait "
-                "until it has ended, end it with Ctrl-C, or give another --out"
+                "until that process has ended, end it with Ctrl-C, or give another --out"
             ) from None
         file.truncate(0)
         file.write(f"process {os.getpid()} on {socket.gethostname()}\n")

@@ -9,7 +9,7 @@ from autograder.engine.verdict import CheckVerdict, Grade
 
 
 def unreadable(student: str, exercise: Exercise, isolation: str, seed: int, problem: str) -> Grade:
-    """Return the grade of an unreadable submission: no points, and the reason at its first check."""
+    """Return the grade of an unreadable submission: no points, and the reason in the verdict of the first check."""
     first, *others = exercise.checks
     names = " and ".join(exercise.file_names)
     verdicts = [
@@ -21,7 +21,7 @@ def unreadable(student: str, exercise: Exercise, isolation: str, seed: int, prob
             first.points,
             expected=f"{names}, or a notebook with cells that begin '%%writefile {exercise.file_names[0]}'",
             observed=problem,
-            help="Open the file you handed in, put this right and hand it in again.",
+            help="Open the file you handed in, correct this and hand it in again.",
         ),
         *(
             CheckVerdict(
@@ -40,7 +40,7 @@ def unreadable(student: str, exercise: Exercise, isolation: str, seed: int, prob
 
 
 def with_reason(grade: Grade) -> Grade:
-    """Return the grade; if it is not graded, its reason becomes that of the first check that could not be judged."""
+    """Return the grade; a missing reason of "not graded" is taken from the first check that was not judged."""
     if grade.status == "graded" or grade.reason:
         return grade
     broken = next((verdict for verdict in grade.checks if verdict.status == "error"), None)
@@ -50,5 +50,5 @@ def with_reason(grade: Grade) -> Grade:
 
 
 def not_graded(exercise: str, student: str, isolation: str, reason: str) -> Grade:
-    """Return the record of a submission that the grader failed to judge: no points either way."""
+    """Return the grade "not graded" of a submission that the grader failed to judge: it has no score."""
     return Grade(exercise, student, isolation, reason=reason)

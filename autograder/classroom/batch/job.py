@@ -1,4 +1,4 @@
-"""One unit of a batch's work: a submission to grade, which can be sent to another machine, and what comes back."""
+"""A job of a batch: grade one submission, here or on another machine, and return the outcome."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ class GradingJob:
 
     Attributes:
         student, exercise, sources: the submission.
-        seed: draws the inputs of its scenarios.
-        trusted: make the hidden checks too, which only an isolated worker may do.
+        seed: draws the inputs of the scenarios.
+        trusted: run the hidden checks, too; only an isolated worker may run them.
         version: of the checks and the engine (`checks_version`) that the batch is graded with.
-        arenas: how many of this submission run at a time.
+        arenas: number of arenas that run in parallel for this submission.
         course: the folder of exercises, if it is not the clone's own.
-        recorded: make recordings of its scenarios.
+        recorded: make recordings of the scenarios.
     """
 
     student: str
@@ -53,7 +53,7 @@ class GradingJob:
 
     @property
     def submission(self) -> Submission:
-        """The submission as the engine takes it."""
+        """The submission, for the engine."""
         return Submission(self.exercise, self.student, self.sources)
 
 
@@ -63,11 +63,11 @@ class Outcome:
 
     Attributes:
         grade: the verdicts.
-        isolation: the label of what the worker had; "" if no worker answered.
-        drawn: SVG of the runs that failed checks were judged on, by the check's id.
-        effort: what it took; None if no worker answered.
-        recordings: MCAP files by name, if they were asked for.
-        may_end_otherwise: the grader failed in a way that a retry may avoid (not a fault of its set-up).
+        isolation: the label of the worker's isolation; "" if the worker was lost.
+        drawn: SVG drawings of the runs on which checks failed, by the check's id.
+        effort: the time and cost of the grading; None if the worker was lost.
+        recordings: MCAP files by name, if the job requests recordings.
+        retry_may_succeed: the grader failed, and not because of a wrong set-up.
     """
 
     grade: Grade
@@ -75,42 +75,42 @@ class Outcome:
     drawn: DrawnRuns = field(default_factory=dict)
     effort: Effort | None = None
     recordings: Recordings = field(default_factory=dict)
-    may_end_otherwise: bool = False
+    retry_may_succeed: bool = False
 
 
 @dataclass(frozen=True)
-class Live:
-    """State that a worker thread shares with the batch; workers in other processes run without it.
+class SharedState:
+    """State that a worker thread shares with the batch; workers in other processes do not have it.
 
     Attributes:
-        isolation: of this machine.
-        stop: ends what runs.
-        report: gets each verdict.
-        begins, ends: get each job.
+        isolation: the isolation of this machine.
+        stop: ends running gradings when it is set.
+        report: called with each verdict.
+        on_begin, on_end: called with each job when it begins and when it ends.
     """
 
     isolation: Isolation
     stop: Stop
     report: Callable[[CheckVerdict], None]
-    begins: Callable[[GradingJob], None]
-    ends: Callable[[GradingJob], None]
+    on_begin: Callable[[GradingJob], None]
+    on_end: Callable[[GradingJob], None]
 
 
-def carry_out(job: GradingJob, live: Live | None = None) -> Outcome:
-    """Grade a submission; whatever goes wrong is the reason of a grade "not graded".
+def carry_out(job: GradingJob, shared: SharedState | None = None) -> Outcome:
+    """Grade a submission; an error of the grader gives the grade "not graded", with the error as its reason.
 
     Raises:
         Stopped: the batch was stopped.
     """
-    if live is None:
+    if shared is None:
         return _graded(job, available_isolation(), Stop(), lambda verdict: None)
-    if live.stop.is_set():
+    if shared.stop.is_set():
         raise Stopped
-    live.begins(job)
+    shared.on_begin(job)
     try:
-        return _graded(job, live.isolation, live.stop, live.report)
+        return _graded(job, shared.isolation, shared.stop, shared.report)
     finally:
-        live.ends(job)
+        shared.on_end(job)
 
 
 def _graded(
@@ -137,7 +137,7 @@ def _graded(
             found = grade(job.submission, exercise, options, watcher, arenas=arenas, stop=stop)
     except Stopped:
         raise
-    except Exception:  # whatever goes wrong here is the grader's fault and may not end the batch
+    except Exception:  # any error here is the grader's fault and must not end the batch
         reason = f"the grader itself failed:\n{traceback.format_exc()}"
         found = not_graded(job.exercise, job.student, isolation.label, reason)
     return Outcome(
@@ -146,7 +146,7 @@ def _graded(
         drawn,
         _effort(began, arenas),
         recorder.files(found) if recorder else {},
-        may_end_otherwise=arenas is not None and found.status == "not graded",
+        retry_may_succeed=arenas is not None and found.status == "not graded",
     )
 
 
@@ -170,14 +170,14 @@ def _why_not_here(job: GradingJob, isolation: Isolation) -> str:
     here = socket.gethostname()
     if job.trusted and not isolation.trusted:
         return (
-            f"the worker on {here} has no isolation ({isolation.reason}), and hidden checks need it; take it out of "
-            "the cluster, or let it have namespaces, and grade again with --resume"
+            f"the worker on {here} has no isolation ({isolation.reason}), which hidden checks need; take the worker "
+            "out of the cluster, or enable namespaces on it, and grade again with --resume"
         )
     if job.course:
         os.environ[FOLDER_VARIABLE] = job.course
     if checks_version(load_exercise(job.exercise, hidden=False).folder) != job.version:
         return (
             f"the worker on {here} has other checks or another engine than the batch; bring its clone to the same "
-            "commit, start it again, and grade again with --resume"
+            "commit, restart the worker, and grade again with --resume"
         )
     return ""

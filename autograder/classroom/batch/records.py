@@ -1,4 +1,4 @@
-"""The file of grades that a batch writes."""
+"""Reads and writes the file of a batch's grades."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ def read_grades(path: Path) -> list[Grade]:
     try:
         records = json.loads(path.read_text(encoding="utf-8"))
         if not isinstance(records, list):
-            raise ValueError("it holds no list of grades")
+            raise ValueError("it does not hold a list of grades")
         return [Grade.from_json(record) for record in records]
     except UNREADABLE as error:
         raise UnusableRecord(
-            f"{path} is no file of grades ({str(error)[:500]}); put the one of the last batch back, or move it away "
-            "and grade the whole class again with --resume"
+            f"{path} is not a file of grades ({str(error)[:500]}); restore the file of the last batch, or move this "
+            "file away and grade the whole class again with --resume"
         ) from error

@@ -1,4 +1,4 @@
-"""What a batch is asked to do."""
+"""The options of a batch."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from autograder.classroom.batch.shards import Shard
 
 
 class UnusableRequest(ValueError):
-    """Options that do not go together; the message says which."""
+    """Options that exclude each other; the message says which."""
 
 
 @dataclass(frozen=True)
@@ -18,7 +18,7 @@ class BatchRequest:
 
     Attributes:
         submitted: the folder of submissions.
-        out: where everything is written.
+        out: the output folder.
         jobs: how many arenas run in parallel on this machine.
         resume: keep the grades of an earlier run.
         seed: draws the inputs of hidden checks; None: the seed of the batch that is continued, or a new one.
@@ -48,11 +48,11 @@ class BatchRequest:
     def __post_init__(self) -> None:
         if self.shard and (self.students or self.exercises or self.json_file):
             raise UnusableRequest(
-                "--shard takes a part of the whole class: leave out --student, --exercise and --json"
+                "--shard grades a part of the whole class: leave out --student, --exercise and --json"
             )
         if self.shard and self.watch:
             raise UnusableRequest(
-                "--watch grades new submissions, --shard a part of the present ones: give only one of them"
+                "--watch grades new submissions, and --shard a part of the present ones: give only one option"
             )
 
     @property
@@ -61,7 +61,7 @@ class BatchRequest:
         return self.watch or bool(self.students or self.exercises)
 
     @property
-    def goes_on(self) -> bool:
+    def continues_batch(self) -> bool:
         """Whether this continues the batch that `out` holds, with its seed."""
         return self.resume or self.keeps_others
 

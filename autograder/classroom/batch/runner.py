@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from functools import lru_cache, partial
 from pathlib import Path
 
-from autograder.classroom.batch.cache import GradeCache, Known
+from autograder.classroom.batch.cache import CachedGrade, GradeCache
 from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.effort import Effort, without_arena
 from autograder.classroom.batch.grades_without_run import unreadable
-from autograder.classroom.batch.job import GradingJob, Live, carry_out
+from autograder.classroom.batch.job import GradingJob, SharedState, carry_out
 from autograder.classroom.batch.seeds import ONE_FOR_ALL, Seeds
 from autograder.classroom.batch.version import checks_version
 from autograder.classroom.batch.worker_pool import RetryLater, WorkerPool, Workers, threads
@@ -26,17 +26,19 @@ from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.availability import Isolation
 from autograder.recording.kept import keep
 
-RESULT_POLL_TIME = 0.5  # s to wait for results before the next look for new submissions
+RESULT_POLL_TIME = 0.5  # s to wait for results before the next poll for new submissions
 
 
 @dataclass(frozen=True)
 class BatchWatcher:
-    """What is called while a batch is graded, on any thread.
+    """The callbacks of a batch, which may be called on any thread.
 
     Attributes:
-        on_verdict: gets each verdict as soon as it is known; from other machines, with the whole grade.
-        on_running: gets the jobs that run in this process, whenever they change.
-        on_retry: gets each job that could not be graded and is done again at the end, alone, with its first outcome.
+        on_verdict: called with each verdict as soon as it is known; another machine sends all verdicts of a grade at
+            once.
+        on_running: called with the jobs that run in this process, whenever they change.
+        on_retry: called with each job that could not be graded and will be retried alone at the end, and its first
+            outcome.
     """
 
     on_verdict: Callable[[CheckVerdict], None] = lambda verdict: None
@@ -64,12 +66,12 @@ class BatchRunner:
     """Grades submissions; without trusted isolation only with the visible checks.
 
     Attributes:
-        cache: gets every grade as soon as there is one.
-        isolation: of the workers.
-        jobs: how many arenas run in parallel here.
-        seeds: of the scenarios' inputs.
-        resume: take grades from the cache.
-        watcher: is called as the batch goes on.
+        cache: stores every grade as soon as it is known.
+        isolation: the isolation of the workers.
+        jobs: number of arenas that run in parallel on this machine.
+        seeds: draw the inputs of the scenarios.
+        resume: reuse grades from the cache.
+        watcher: the callbacks of the batch.
         drawings: stores the drawings of failed checks.
         recordings: folder for recordings, in <student>/<exercise>/; None: do not record.
         workers: where jobs run; None: in `jobs` threads of this process.
@@ -89,26 +91,28 @@ class BatchRunner:
         self._stop = Stop()
         self._now_running: list[GradingJob] = []
         self._lock = threading.Lock()
-        self.exercise = lru_cache(self._load)  # an exercise with the checks that this batch makes, by name
+        self.exercise = lru_cache(
+            self._load
+        )  # returns an exercise by its name, with the checks of this batch
 
     def count(self, name: str) -> int:
-        """Return how many verdicts this batch gives on a submission for an exercise."""
+        """Return the number of verdicts that this batch gives on one submission for an exercise."""
         return len(load_essay(name).criteria if name in essay_names() else self.exercise(name).checks)
 
     def run(self, works: Iterable[Work | None]) -> Generator[Graded, None, None]:
-        """Yield each submission as soon as it is graded, each once.
+        """Yield each submission once, as soon as it is graded.
 
-        `works` may be endless; it yields None while nothing new is there, so that finished results can be collected. A
-        work may be repeated after its result was yielded.
+        `works` may be endless: it yields None while there is no new submission, so that finished results can be
+        collected. It may yield a submission again after that submission's result.
 
         Leaving the loop early, for example by Ctrl-C, ends the running arenas at once; finished grades stay in the
         cache.
         """
-        at_a_time = len(works) if isinstance(works, Sized) else self.jobs
-        arenas = 1 if self.workers else max(1, self.jobs // max(1, at_a_time))
+        submissions = len(works) if isinstance(works, Sized) else self.jobs
+        arenas = 1 if self.workers else max(1, self.jobs // max(1, submissions))
         workers = self.workers or threads(max(1, self.jobs // arenas))
-        live = self._live() if workers.share_memory else None
-        pool = WorkerPool(workers, partial(carry_out, live=live), self.watcher.on_retry)
+        shared = self._shared() if workers.share_memory else None
+        pool = WorkerPool(workers, partial(carry_out, shared=shared), self.watcher.on_retry)
         handed_over: dict[tuple[str, str], Work] = {}
         try:
             for work in works:
@@ -125,7 +129,7 @@ class BatchRunner:
                 while not pool.has_room:
                     yield from self._finish(pool, handed_over)
                 handed_over[work.student, work.exercise] = work
-                pool.give(prepared)
+                pool.submit(prepared)
             while pool.is_busy:
                 yield from self._finish(pool, handed_over)
         finally:
@@ -136,13 +140,13 @@ class BatchRunner:
         return load_exercise(name, hidden=self.isolation.trusted)
 
     def _prepare(self, work: Work, arenas: int) -> Graded | GradingJob:
-        """Return a submission with its grade if that needs no arena (essay, unreadable, cached), else its job."""
+        """Return the grade of a submission that needs no arena (essay, unreadable, cached), else its job."""
         try:
             submission, problem = work.read(), ""
         except UnusableSubmission as error:
             submission, problem = None, str(error)
         sources = submission.sources if submission else None
-        if work.exercise in essay_names():  # a person marks every essay, also one that cannot be read
+        if work.exercise in essay_names():  # a person marks every essay, even an unreadable one
             waiting = unmarked_grade(load_essay(work.exercise), work.student)
             return Graded(work, waiting, sources, problem, effort=without_arena())
         exercise, seed = self.exercise(work.exercise), self.seeds.of(work.student, sources or {})
@@ -164,14 +168,14 @@ class BatchRunner:
         )
 
     def _finish(
-        self, pool: WorkerPool, handed_over: dict[tuple[str, str], Work], patience: float | None = None
+        self, pool: WorkerPool, handed_over: dict[tuple[str, str], Work], timeout: float | None = None
     ) -> Iterator[Graded]:
         """Wait for outcomes, and cache all of them before yielding the first, so that Ctrl-C loses none."""
         finished = []
-        for job, outcome in pool.wait(patience):
+        for job, outcome in pool.wait(timeout):
             work = handed_over.pop((job.student, job.exercise))
             if outcome.effort:
-                known = Known(outcome.grade, outcome.effort)
+                known = CachedGrade(outcome.grade, outcome.effort)
                 self.cache.put(job.submission, self.exercise(job.exercise), job.seed, known)
             if self.drawings:
                 self.drawings.keep_all(outcome.grade, job.sources, outcome.drawn)
@@ -183,15 +187,15 @@ class BatchRunner:
                     self.watcher.on_verdict(verdict)
         yield from finished
 
-    def _live(self) -> Live:
-        return Live(self.isolation, self._stop, self.watcher.on_verdict, self._begins, self._ends)
+    def _shared(self) -> SharedState:
+        return SharedState(self.isolation, self._stop, self.watcher.on_verdict, self._on_begin, self._on_end)
 
-    def _begins(self, job: GradingJob) -> None:
+    def _on_begin(self, job: GradingJob) -> None:
         with self._lock:
             self._now_running.append(job)
             self.watcher.on_running(list(self._now_running))
 
-    def _ends(self, job: GradingJob) -> None:
+    def _on_end(self, job: GradingJob) -> None:
         with self._lock:
             self._now_running.remove(job)
             self.watcher.on_running(list(self._now_running))

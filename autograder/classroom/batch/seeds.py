@@ -1,6 +1,6 @@
-"""The seeds of a batch, drawn anew for each batch unless one is given.
+"""The seeds of a batch, which draw the inputs of hidden checks.
 
-So the inputs of hidden checks in one batch tell a student nothing about the next.
+A new seed is drawn for each batch unless one is given, so the inputs of one batch do not reveal those of the next.
 """
 
 from __future__ import annotations
@@ -13,17 +13,17 @@ from pathlib import Path
 
 from autograder.classroom.batch.collection import Work
 
-_READ = 65536  # bytes of each file that a seed made of the submissions depends on
+_HASHED_SIZE = 65536  # bytes at the beginning of each file that a seed is hashed from
 
 
 @dataclass(frozen=True)
 class Seeds:
-    """The seeds that draw the inputs of scenarios: `batch` itself, or hashes of it and more.
+    """The seeds that draw the inputs of scenarios: the batch's seed, or one hashed from it for each submission.
 
     Attributes:
         batch: the seed of the batch.
-        per_student: hash the student's name with it, so that each student has a seed.
-        per_submission: hash name and program with it, so that a second hand-in has another seed than the first.
+        per_student: hash it with the student's name, so that each student has another seed.
+        per_submission: hash it with the name and the program, so that a changed program has another seed.
     """
 
     batch: int = 0
@@ -40,10 +40,10 @@ class Seeds:
         return int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "big")
 
     def in_words(self) -> str:
-        """Return them in words, for the instructor."""
+        """Return the seeds in words, for the instructor."""
         if self.per_submission:
-            return f"{self.batch}, made into one for each submission"
-        return f"{self.batch}, made into one for each student" if self.per_student else str(self.batch)
+            return f"{self.batch}, hashed with each submission"
+        return f"{self.batch}, hashed with each student's name" if self.per_student else str(self.batch)
 
 
 ONE_FOR_ALL = Seeds()
@@ -54,7 +54,7 @@ def drawn_seed() -> int:
     return secrets.randbits(32)
 
 
-def seed_of_what_was_handed_in(works: Sequence[Work]) -> int:
+def seed_of_submissions(works: Sequence[Work]) -> int:
     """Return a hash of all submissions as seed: the same on machines with the same folder, and unknown to students."""
     digest = hashlib.sha256()
     for work in sorted(works, key=lambda work: (work.student, work.exercise)):
@@ -65,11 +65,11 @@ def seed_of_what_was_handed_in(works: Sequence[Work]) -> int:
 
 
 def _beginning(path: Path) -> bytes:
-    """The size and the first bytes of an ordinary file."""
+    """The size and the first bytes of a regular file; b"" if it cannot be read."""
     if path.is_symlink() or not path.is_file():
         return b""
     try:
         with path.open("rb") as file:
-            return f"{path.stat().st_size} ".encode() + file.read(_READ)
+            return f"{path.stat().st_size} ".encode() + file.read(_HASHED_SIZE)
     except OSError:
         return b""

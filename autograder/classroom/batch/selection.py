@@ -15,14 +15,14 @@ class OtherSeed(CourseError):
 
 
 class NothingSelected(CourseError):
-    """A name selects no submission; the message says which names there are."""
+    """A name selects no submission; the message lists the names of the class."""
 
 
 def select(works: Sequence[Work], students: Sequence[str], exercises: Sequence[str]) -> list[Work]:
     """Return the works of these students for these exercises; an empty sequence selects all.
 
     Raises:
-        NothingSelected: a name has no submission, or none of the students handed in one of the exercises.
+        NothingSelected: a name has no submission, or these students handed in none of these exercises.
     """
     for option, wanted, found in (
         ("--student", students, {work.student for work in works}),
@@ -30,7 +30,7 @@ def select(works: Sequence[Work], students: Sequence[str], exercises: Sequence[s
     ):
         if missing := sorted(set(wanted) - found):
             names = ", ".join(sorted(found)[:20]) + (", …" if len(found) > 20 else "")
-            raise NothingSelected(f"{option} {missing[0]}: no submission of that name; there are {names}")
+            raise NothingSelected(f"{option} {missing[0]}: no submission has this name; there are {names}")
     selected = [
         work
         for work in works

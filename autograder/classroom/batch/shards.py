@@ -31,10 +31,10 @@ class CannotMerge(CourseError):
 
 @dataclass(frozen=True)
 class Shard:
-    """Part `number` of `of`, counted from 1."""
+    """Part `number` (from 1) of a class that is split into `total` parts."""
 
     number: int
-    of: int
+    total: int
 
     @classmethod
     def parse(cls, text: str) -> Shard:
@@ -47,7 +47,7 @@ class Shard:
     def part(self, works: Sequence[Work]) -> list[Work]:
         """Return this part of the class: every N-th submission of each exercise, the same on every machine."""
         in_order = sorted(works, key=lambda work: (work.exercise, work.student))
-        return in_order[self.number - 1 :: self.of]
+        return in_order[self.number - 1 :: self.total]
 
 
 def write_shard(
@@ -56,7 +56,7 @@ def write_shard(
     """Write the input of a merge: the shard's grades and sources, and the list of the whole class's submissions."""
     exercises = sorted({work.exercise for work in works})
     record = {
-        "shard": f"{shard.number}/{shard.of}",
+        "shard": f"{shard.number}/{shard.total}",
         "seed": [seeds.batch, seeds.per_student, seeds.per_submission],
         "versions": {name: checks_version(exercises_folder() / name) for name in exercises},
         "submissions": [[work.student, work.exercise] for work in works],
@@ -77,7 +77,7 @@ def write_shard(
 def _text(value: Any) -> Any:
     """Accept any str; pydantic's own type refuses unpaired surrogates, which a message may quote."""
     if not isinstance(value, str):
-        raise ValueError("expected a text")
+        raise ValueError("expected a string")
     return value
 
 
@@ -95,7 +95,7 @@ class _Row(TypedDict):
 
 
 class _Record(TypedDict):
-    """What a shard's file holds."""
+    """The content of a shard's file."""
 
     shard: str
     seed: list[int]
@@ -109,17 +109,18 @@ _RECORD = TypeAdapter(_Record)
 
 @dataclass(frozen=True)
 class Merged:
-    """The results of all shards in order of student and exercise, and a sentence on each submission without one."""
+    """The results of all shards in order of student and exercise, and a sentence on each missing result."""
 
     results: Sequence[Graded]
     missing: Sequence[str]
 
 
 def merge_shards(folders: Sequence[Path]) -> Merged:
-    """Join what `write_shard` wrote.
+    """Merge the files that `write_shard` wrote into these folders.
 
     Raises:
-        CannotMerge: a folder holds no shard, two hold the same submission, or seeds, versions or isolations differ.
+        CannotMerge: a folder holds no shard, two folders hold the same submission, or the seeds, versions or isolations
+            of the shards differ.
     """
     shards = {folder: _read(folder) for folder in folders}
     (first, given), *others = shards.items()
@@ -139,9 +140,9 @@ def merge_shards(folders: Sequence[Path]) -> Merged:
             key = (grade.student, grade.exercise)
             if key in results:
                 raise CannotMerge(
-                    f"{grade.student}'s {grade.exercise} is in {found_in[key]} and in {folder}: leave one of them out"
+                    f"{grade.student}'s {grade.exercise} is in {found_in[key]} and in {folder}: leave out one of these"
                 )
-            # not an essay, nor what was lost
+            # Essays and submissions of lost workers have another label.
             if grade.isolation in ("namespaces", "another-user", "untrusted"):
                 isolations.setdefault(grade.isolation != "namespaces", folder)
             found_in[key] = folder
@@ -172,7 +173,7 @@ def _missing(shards: Mapping[Path, _Record], found: set[tuple[str, str]]) -> lis
         (student, exercise) for record in shards.values() for student, exercise in record["submissions"]
     }
     present = {record["shard"] for record in shards.values()}
-    wanted = {f"{k}/{shard.of}" for shard in map(Shard.parse, present) for k in range(1, shard.of + 1)}
+    wanted = {f"{k}/{shard.total}" for shard in map(Shard.parse, present) for k in range(1, shard.total + 1)}
     sentences = [f"shard {name} is not among the folders" for name in sorted(wanted - present)]
     return sentences + [
         f"{student}'s {exercise} has no grade" for student, exercise in sorted(expected - found)

@@ -1,6 +1,6 @@
 """Writes sources/: each graded program, in the layout of plagiarism detectors (JPlag, MOSS, Dolos).
 
-    sources/<exercise>/<student>/<exercise>.py   the student's program, without the given cells of the notebook
+    sources/<exercise>/<student>/<exercise>.py   the student's program, without other cells of the notebook
     sources/_base/<exercise>/<exercise>.py       the starter code of that program, which the tools should ignore
 
 The starter code is not in an exercise's folder, because a student could be called _base.

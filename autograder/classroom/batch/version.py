@@ -1,4 +1,4 @@
-"""What a verdict depends on besides the submission, as a hash."""
+"""A hash of everything that a verdict depends on, except the submission."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from pathlib import Path
 
 from ros_runtime.project import PROJECT
 
-# The checks and the engine, the robot, the clock.
-JUDGING = ("autograder", "robot_sim", "ros_runtime", "humanoid_interfaces")
+# The checks and the engine, the robot, the clock and the interfaces.
+JUDGING_FOLDERS = ("autograder", "robot_sim", "ros_runtime", "humanoid_interfaces")
 WITHOUT_INFLUENCE = ("autograder/classroom", "autograder/recording", "autograder/report")
-HIDDEN_CHECKS = "autograder/classroom/hidden_checks"  # of the classroom these alone have influence
+HIDDEN_CHECKS = "autograder/classroom/hidden_checks"  # the only part of classroom/ that has influence
 
 
 @lru_cache
@@ -21,8 +21,8 @@ def checks_version(exercise: Path) -> str:
     digest = hashlib.sha256()
     for path in sorted(exercise.glob("*.py")):
         digest.update(f"{path.name}\0".encode() + path.read_bytes())
-    for room in JUDGING:
-        for path in sorted((PROJECT / room).rglob("*")):
+    for folder in JUDGING_FOLDERS:
+        for path in sorted((PROJECT / folder).rglob("*")):
             place = path.relative_to(PROJECT)
             if path.is_file() and "__pycache__" not in place.parts and _has_influence(place):
                 digest.update(f"{place}\0".encode() + path.read_bytes())
@@ -34,7 +34,7 @@ def _has_influence(place: Path) -> bool:
 
 
 def commit_of(folder: Path) -> str:
-    """Return the commit of a folder's repository, with a note on files that differ from it; "" outside of one."""
+    """Return the commit of a folder's git repository, with a note on uncommitted changes; "" if there is none."""
     commit = _git(folder, "rev-parse", "HEAD")
     if commit and _git(folder, "status", "--porcelain", "--untracked-files=no", "--", "."):
         return f"{commit} with changes that are not committed"

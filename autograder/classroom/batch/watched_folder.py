@@ -21,20 +21,20 @@ Stamp = tuple[tuple[str, int, int, int], ...]  # name, inode, size and modificat
 
 
 class WatchedFolder:
-    """Finds the submissions to grade: those that have changed, and are unchanged since the previous poll."""
+    """Finds the submissions to grade: new or changed ones whose files are the same in two polls."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._seen: dict[Key, Stamp] = {}
         self._taken: dict[Key, Stamp] = {}
-        self._in_work: set[Key] = set()
+        self._being_graded: set[Key] = set()
         self.collection = Collection([], [], [])
         self.seconds = 0.0  # duration of the last poll
 
-    def look(self) -> Iterator[Work]:
-        """Poll the folder and yield the submissions to grade; each counts as in work until `is_graded`.
+    def poll(self) -> Iterator[Work]:
+        """Poll the folder and yield the submissions to grade; each counts as being graded until `mark_graded`.
 
-        A submission that changes while it is graded is yielded again afterwards.
+        A submission that changes while it is being graded is yielded again afterwards.
         """
         began = time.monotonic()
         try:
@@ -47,20 +47,20 @@ class WatchedFolder:
         self.seconds = time.monotonic() - began
         for work in self.collection.works:
             key = _key(work)
-            if key in self._in_work or before.get(key) != self._seen[key] or self._is_empty(work):
+            if key in self._being_graded or before.get(key) != self._seen[key] or self._is_empty(work):
                 continue
-            now = _stamp(work)  # grading of the earlier ones may have taken a while, so check again
+            now = _stamp(work)  # check again, because grading the earlier submissions may have taken a while
             if now == self._seen[key] != self._taken.get(key):
                 self._taken[key] = now
-                self._in_work.add(key)
+                self._being_graded.add(key)
                 yield work
 
-    def is_graded(self, work: Work) -> None:
+    def mark_graded(self, work: Work) -> None:
         """Mark a submission as graded, so that a newer version of it can be yielded."""
-        self._in_work.discard(_key(work))
+        self._being_graded.discard(_key(work))
 
     def _is_empty(self, work: Work) -> bool:
-        """Whether the exercise's folder is still empty or has vanished."""
+        """Whether the exercise's folder is empty or missing."""
         if work.candidates:
             return False
         try:
@@ -72,7 +72,7 @@ class WatchedFolder:
     def unfinished(self) -> int:
         """Number of submissions whose present version has no grade yet."""
         changed = {key for key, stamp in self._seen.items() if stamp and stamp != self._taken.get(key)}
-        return len(changed | self._in_work)
+        return len(changed | self._being_graded)
 
 
 @contextmanager
@@ -90,7 +90,7 @@ def only_watcher(folder: Path) -> Iterator[None]:
             raise FolderInUse(
                 f"another `course grade --watch` watches {folder}: end it first, with Ctrl-C"
             ) from None
-        except OSError:  # a file system without locks on folders; the lock of --out remains
+        except OSError:  # this file system cannot lock folders; --out is locked all the same
             pass
         yield
     finally:
@@ -102,7 +102,7 @@ def _key(work: Work) -> Key:
 
 
 def _stamp(work: Work) -> Stamp:
-    """Return a fingerprint of the files' state; missing files are left out."""
+    """Return the stamps of a submission's files, without missing files."""
     stamps = []
     for path in work.files():
         try:

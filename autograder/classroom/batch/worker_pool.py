@@ -1,6 +1,6 @@
 """Runs jobs on an executor: threads of this process, or workers of a cluster.
 
-Jobs whose worker was lost, and jobs that no arena could grade, are repeated once at the end, one at a time.
+Jobs whose worker was lost, and jobs that no arena could grade, are retried once at the end, one at a time.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ RetryLater = Callable[[GradingJob, Outcome], None]
 
 @dataclass(frozen=True)
 class Workers:
-    """Where jobs are carried out.
+    """The workers that carry out jobs.
 
     Attributes:
-        open: creates an executor; called again if that breaks.
-        at_a_time: number of jobs to submit before one of them is done.
+        open: creates an executor; called again if the executor breaks.
+        max_unfinished: number of jobs that may be submitted before one of them is done.
         share_memory: whether the workers are threads of this process.
     """
 
     open: Callable[[], Executor]
-    at_a_time: int
+    max_unfinished: int
     share_memory: bool = False
 
 
@@ -40,14 +40,14 @@ def threads(number: int) -> Workers:
 class WorkerPool:
     """Submits jobs to workers and collects one outcome per job.
 
-    A job is repeated alone, after all others, if its worker was killed, its executor broke, or arenas ran for it and it
-    is "not graded": alone, a job that kills its worker harms no other, and a busy machine has more time for it. The
-    second outcome is final.
+    A job is retried after all others if its worker was killed, its executor broke, or its arenas ran and it is "not
+    graded". It is retried alone, so that a job that kills its worker cannot disturb others, and so that a busy machine
+    has more time for it. The second outcome is final.
 
     Attributes:
         workers: where the jobs run.
         work: the function that grades a job.
-        retry_later: gets each job that will be repeated, with its first outcome.
+        retry_later: called with each job that will be retried, and its first outcome.
     """
 
     workers: Workers
@@ -57,20 +57,20 @@ class WorkerPool:
     def __post_init__(self) -> None:
         self._executor: Executor | None = None
         self._running: dict[Future[Outcome], GradingJob] = {}
-        self._once_more: deque[GradingJob] = deque()
-        self._alone: GradingJob | None = None
+        self._to_retry: deque[GradingJob] = deque()
+        self._retried: GradingJob | None = None
 
     @property
     def has_room(self) -> bool:
         """Whether another job can be submitted now."""
-        return len(self._running) < self.workers.at_a_time
+        return len(self._running) < self.workers.max_unfinished
 
     @property
     def is_busy(self) -> bool:
         """Whether there are jobs without an outcome."""
-        return bool(self._running or self._once_more)
+        return bool(self._running or self._to_retry)
 
-    def give(self, job: GradingJob) -> None:
+    def submit(self, job: GradingJob) -> None:
         """Submit a job."""
         if self._executor is None:
             self._executor = self.workers.open()
@@ -82,24 +82,27 @@ class WorkerPool:
             future = self._executor.submit(self.work, job)
         self._running[future] = job
 
-    def wait(self, patience: float | None = None) -> Sequence[tuple[GradingJob, Outcome]]:
-        """Wait until something happens to a job, or for `patience` s; return those that are done."""
+    def wait(self, timeout: float | None = None) -> Sequence[tuple[GradingJob, Outcome]]:
+        """Wait until a job is done, for at most `timeout` s; return the jobs that are done, with their outcomes."""
         if not self._running:
-            self._alone = replace(self._once_more.popleft(), arenas=1)
+            self._retried = replace(self._to_retry.popleft(), arenas=1)
             self._close_executor()  # the old executor may still be breaking and would fail this job, too
-            self.give(self._alone)
-        done = wait(self._running, timeout=patience, return_when=FIRST_COMPLETED).done
+            self.submit(self._retried)
+        done = wait(self._running, timeout=timeout, return_when=FIRST_COMPLETED).done
         outcomes = []
         for future in done:
             job = self._running.pop(future)
             try:
                 outcome = future.result()
-            except (Exception, CancelledError) as error:  # the job itself raises nothing: the worker was lost
-                outcome = _lost(job, error, twice=job is self._alone)
-            if job is self._alone or not outcome.may_end_otherwise:
+            except (
+                Exception,
+                CancelledError,
+            ) as error:  # a job catches its own errors, so the worker was lost
+                outcome = _lost(job, error, twice=job is self._retried)
+            if job is self._retried or not outcome.retry_may_succeed:
                 outcomes.append((job, outcome))
             else:
-                self._once_more.append(job)
+                self._to_retry.append(job)
                 self.retry_later(job, outcome)
         return outcomes
 
@@ -117,7 +120,7 @@ class WorkerPool:
 
 def _lost(job: GradingJob, error: BaseException, *, twice: bool) -> Outcome:
     reason = (
-        f"the worker was lost {'twice ' if twice else ''}while it graded this ({type(error).__name__}: {error}); look "
+        f"the worker was lost {'twice ' if twice else ''}while it graded this ({type(error).__name__}: {error}); check "
         "whether a machine ran out of memory or was switched off, and grade again with --resume"
     )
-    return Outcome(not_graded(job.exercise, job.student, "", reason), "", may_end_otherwise=True)
+    return Outcome(not_graded(job.exercise, job.student, "", reason), "", retry_may_succeed=True)

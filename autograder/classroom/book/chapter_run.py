@@ -19,7 +19,7 @@ from lab.learning.gap_cells import fill_gaps
 from ros_cli.real_ros2 import path_with_ros2
 from ros_runtime.course_error import COULD_NOT, CourseError
 
-# s; building interfaces takes ten seconds alone, and minutes on a machine that everybody uses
+# s; building interfaces takes ten seconds on an idle machine, and minutes on a busy one
 CELL_TIMEOUT = 300
 
 
@@ -37,11 +37,11 @@ class Executed:
     left_behind: list[str]  # processes
 
     def text(self, cell_id: str) -> str:
-        """What a cell printed."""
+        """Return the text that a cell printed."""
         return "".join(output.text for output in self._outputs[cell_id] if output.output_type == "stream")
 
     def html(self, cell_id: str) -> str:
-        """The HTML that a cell showed."""
+        """Return the HTML that a cell displayed."""
         return "".join(
             output.data.get("text/html", "") for output in self._outputs[cell_id] if "data" in output
         )
@@ -57,7 +57,7 @@ def execute(
     """Run all cells of a chapter in a folder; `on_cell` gets each cell's number and the number of cells.
 
     Raises:
-        ChapterFailed: it names the chapter and the cell.
+        ChapterFailed: a cell failed; the message names the chapter and the cell.
         KeyboardInterrupt: Ctrl-C; the kernel has been ended.
     """
     notebook = answered(nbformat.read(chapter, as_version=4))
@@ -94,14 +94,14 @@ def _execute(client: NotebookClient) -> None:
     try:
         client.execute(env={**os.environ, "PATH": path_with_ros2(os.environ["PATH"])})
     except Exception as error:
-        # nbclient handles Ctrl-C by ending the kernel in a task, and then stumbles over its absence somewhere
+        # On Ctrl-C nbclient ends the kernel in a task, and then raises an error because it has no kernel.
         if hasattr(client, "_async_cleanup_kernel_future"):
             raise KeyboardInterrupt from error
         raise
 
 
 def answered(notebook: nbformat.NotebookNode) -> nbformat.NotebookNode:
-    """A chapter with its gaps filled, and "a" for each prediction and question, as a student without a mouse does."""
+    """Return a chapter with its gaps filled, and a cell after each prediction and question that answers "a"."""
     fill_gaps(notebook)
     cells = []
     for cell in notebook.cells:
@@ -114,7 +114,7 @@ def answered(notebook: nbformat.NotebookNode) -> nbformat.NotebookNode:
 
 
 def processes_in(folder: Path) -> list[psutil.Process]:
-    """The processes that run in a folder or below: a chapter's robot and nodes do, and so does its kernel."""
+    """Return the processes whose working directory is in a folder: a chapter's kernel, its robot and its nodes."""
 
     def runs_there(process: psutil.Process) -> bool:
         try:

@@ -1,4 +1,4 @@
-"""A cache of executed chapters, so that a second build is quick and an interrupted one can continue."""
+"""A cache of executed chapters, so that a second build is quick and an interrupted build can continue."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 import nbformat
 
 # Folders that a chapter's outputs depend on, besides its own text.
-ROOMS = ("humanoid_interfaces", "lab", "robot_sim", "ros_cli", "ros_runtime")
+SOURCE_FOLDERS = ("humanoid_interfaces", "lab", "robot_sim", "ros_cli", "ros_runtime")
 SOURCES = {".py", ".xml", ".msg", ".srv", ".action"}
 
 
@@ -36,14 +36,14 @@ class KeptRuns:
         half.replace(kept)
 
     def _file(self, chapter: Path) -> Path:
-        digest = hashlib.sha256(chapter.read_bytes() + self._rooms).hexdigest()
+        digest = hashlib.sha256(chapter.read_bytes() + self._sources_hash).hexdigest()
         return self._folder / f"{chapter.stem}-{digest[:16]}.ipynb"
 
     @cached_property
-    def _rooms(self) -> bytes:
+    def _sources_hash(self) -> bytes:
         digest = hashlib.sha256()
-        for room in ROOMS:
-            for path in sorted((self._project / room).rglob("*")):
+        for name in SOURCE_FOLDERS:
+            for path in sorted((self._project / name).rglob("*")):
                 if path.suffix in SOURCES:
                     digest.update(f"{path.relative_to(self._project)}\n".encode() + path.read_bytes())
         return digest.digest()

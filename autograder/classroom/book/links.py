@@ -1,4 +1,4 @@
-"""Rewrites a page's links for the book: to a cell of a chapter or to a page; other local links become plain text."""
+"""Rewrites a page's links for the book: links to pages and cells stay links, other local links become plain text."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _LINK = re.compile(r"(?<!!)\[(?P<words>(?:[^\[\]]|\[[^\[\]]*\])+)\]\((?P<target>
 
 
 class Links:
-    """The links of one page; its path and the paths of all pages are relative to the project."""
+    """The links of one page; the paths of this page and of all pages are relative to the project."""
 
     def __init__(self, page: PurePosixPath, pages: Collection[PurePosixPath]) -> None:
         self._page = page

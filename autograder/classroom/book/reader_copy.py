@@ -1,4 +1,4 @@
-"""Makes the book's copy of a notebook: with the outputs of a run, and without buttons."""
+"""Makes the book's copy of a notebook, with the outputs of a run and without buttons."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ ASKS = re.compile(r'(?P<name>\w+) = lab\.(?P<way>predict|quiz)\("(?P<chapter>\w+
 KINDS = {"predict": "PREDICTIONS", "quiz": "QUESTIONS"}
 REPLIES = re.compile(r"^(?P<name>\w+)\.reply\(\)$")
 REQUIRES = re.compile(r"^\w+\.require\(\)\n+")
-HIDDEN_INPUT = "remove-input"  # a tag that myst-nb knows
+HIDDEN_INPUT = "remove-input"  # the tag with which myst-nb hides a cell's code
 
 
 def reader_copy(notebook: NotebookNode, run: NotebookNode | None, links: Links) -> NotebookNode:
     """Return a copy for the book; `run` is the executed notebook, which may have additional cells, or None.
 
-    Each cell can be linked to by its id.
+    Each cell has an anchor, so that links can name it by its id.
     """
     copy = nbformat.from_dict(notebook)
     outputs = {cell.id: cell.outputs for cell in run.cells if cell.cell_type == "code"} if run else {}
@@ -47,7 +47,7 @@ def _shown(
     *,
     anchored: bool,
 ) -> Iterator[NotebookNode]:
-    """The cells that replace one cell in the book. A page begins with its heading, so the first has no anchor."""
+    """Yield the cells that replace one cell in the book; the first has no anchor, because it is the page's heading."""
     anchor = f'<span id="{cell.id}"></span>'
     if cell.cell_type != "code":
         text = links.rewritten(cell.source)
@@ -60,9 +60,9 @@ def _shown(
         question = read_question(asks["chapter"], KINDS[asks["way"]], number)
         asked[asks["name"]] = number, question
         draw = prediction if asks["way"] == "predict" else quiz
-        yield _paper(cell, draw(number, question))
+        yield _with_html(cell, draw(number, question))
     elif (reply := REPLIES.match(cell.source)) and reply["name"] in asked:
-        yield _paper(cell, replies(*asked[reply["name"]]))
+        yield _with_html(cell, replies(*asked[reply["name"]]))
     else:
         yield _changed(
             cell,
@@ -71,8 +71,8 @@ def _shown(
         )
 
 
-def _paper(cell: NotebookNode, html: str) -> NotebookNode:
-    """The cell with this HTML instead of its code."""
+def _with_html(cell: NotebookNode, html: str) -> NotebookNode:
+    """Return the cell with this HTML instead of its code."""
     shown = _changed(cell, outputs=[_html(html)])
     shown.metadata = nbformat.from_dict({"tags": [HIDDEN_INPUT]})
     return shown

@@ -1,4 +1,4 @@
-"""The site: pages gathered from the project into one folder of sources, and made into HTML by Sphinx."""
+"""Builds the site: copies the project's pages into one folder of sources, from which Sphinx makes HTML."""
 
 from __future__ import annotations
 
@@ -36,31 +36,31 @@ PARTS = {
     ),
 }
 WEEK_PAGES = "One page a week"
-# The README of the students' archive, to which its links and pictures are relative.
+# This page is the README of the students' archive, so its links and pictures are relative to the top folder.
 MOVED = {"docs/for_students.md": "README.md"}
 PICTURES = ("chapters/images", "docs/images")
 WELCOME = """\
 # ROS 2 services and actions on a humanoid
 
-A humanoid stands by its own control, walks when a node tells it to, and falls when a node lets it down. The chapters
-show what goes wrong between ROS 2 programs, on that robot, and how to do it right.{outputs}
+A humanoid keeps its own balance, walks when a node commands it, and falls when a node fails. The chapters show on this
+robot what goes wrong between ROS 2 programs, and how to do it right.{outputs}
 
 ![The humanoid in three phases of a step](docs/images/robot.png)
 
-**Predict** before you read on: the replies to each choice are folded. With a robot of your own, in the lab, you run
-every cell and change it.
+**Predict** before you read on: the replies to each choice are folded. In the lab you have a robot of your own, and you
+run every cell and change it.
 """
 OUTPUTS = " Their outputs and pictures come from a run of every cell."
 
 
 class BookFailed(CourseError):
-    """Sphinx could not make the site, or warns of something in it."""
+    """Sphinx could not make the site, or it printed a warning."""
 
     exit_status = COULD_NOT
 
 
 def parts_of(project: Path) -> dict[str, dict[PurePosixPath, Path]]:
-    """Return the pages of the book, in order, by part: their place in the sources, and the file they are made from."""
+    """Return the pages of the book by part, in order: the path of each in the sources, and the file to copy."""
     return {
         part: {
             _place(path.relative_to(project)): path
@@ -83,7 +83,7 @@ def make_site(
 
     `work` is a folder for Sphinx's sources and cache.
 
-    Raises BookFailed, with what Sphinx says.
+    Raises BookFailed, with the errors and warnings of Sphinx.
     """
     sources = work / "sources"
     shutil.rmtree(sources, ignore_errors=True)

@@ -1,4 +1,4 @@
-"""What is alive in the lab as static HTML: the last state of a widget, and questions with their folded replies."""
+"""Static HTML for the lab's interactive parts: the last state of a widget, and questions with folded replies."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from lab.learning.question import Question, in_html
 
 VIEW = "application/vnd.jupyter.widget-view+json"
 STATE = "application/vnd.jupyter.widget-state+json"
-LIVE = "The robot, as the live view showed it last"
-ELSEWHERE = "In the lab, a control stands here."
+VIEW_CAPTION = "The last picture of the robot in the live view"
+NO_STATIC_FORM = "In the lab, there is an interactive control here."
 
 Models = Mapping[str, Mapping[str, Any]]
 
@@ -48,7 +48,7 @@ def still(model_id: str, models: Models) -> str:
         return (
             f'<label>{words} <progress value="{state["value"] - state["min"]}" max="{of}"></progress></label>'
         )
-    return f"<p><em>{ELSEWHERE}</em></p>"
+    return f"<p><em>{NO_STATIC_FORM}</em></p>"
 
 
 def _picture(model: Mapping[str, Any]) -> str:
@@ -59,8 +59,8 @@ def _picture(model: Mapping[str, Any]) -> str:
     base64.b64decode(data, validate=True)
     kind = model["state"].get("format", "png")
     return (
-        f'<figure><img src="data:image/{kind};base64,{data}" alt="{LIVE}">'
-        f"<figcaption>{LIVE}; in the lab it moves.</figcaption></figure>"
+        f'<figure><img src="data:image/{kind};base64,{data}" alt="{VIEW_CAPTION}">'
+        f"<figcaption>{VIEW_CAPTION}; in the lab it moves.</figcaption></figure>"
     )
 
 

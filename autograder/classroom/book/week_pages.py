@@ -1,4 +1,4 @@
-"""One page a chapter, to project or print: its title, what it teaches, its drawing and its conventions."""
+"""One page per chapter to project or print: the chapter's title, outcomes, drawing and conventions."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Grades a class for `course grade`: once, or as submissions come in; shows how it goes and writes the results."""
+"""Grades a class for `course grade`, once or as submissions arrive; shows the progress and writes the results."""

@@ -24,12 +24,12 @@ class ClassFiles:
     """The files in the output folder of a class.
 
     Attributes:
-        record: of the batch, for batch.json and the class page; None: of shards without one.
+        record: the record of the batch, for batch.json and the class page; None if a merged shard has no record.
 
     Args:
         out: the output folder.
-        before: grades that stay beside the new ones.
-        record: of the batch, as it is now.
+        before: earlier grades, kept for submissions without a new one.
+        record: the present record of the batch.
         json_file: a second file for all verdicts.
         drawn_in: output folders with drawings of failed checks; by default `out`.
     """
@@ -81,7 +81,7 @@ class ClassFiles:
         return write_class_page(self._out, grades, refused, batch=words)
 
     def problems(self) -> list[str]:
-        """Return a sentence on each grade that is not in the gradebook; nbgrader's output goes into a file."""
+        """Return a sentence on each grade that is not in the gradebook, and write nbgrader's output to a file."""
         found = {key: f"{key[0]}'s {key[1]}: {error}" for key, error in self._problems.items()}
         logs = [
             f"{found[key]}\n{error.log}"
@@ -93,7 +93,7 @@ class ClassFiles:
         return [*found.values(), *([f"nbgrader's output is in {self._out / LOG}"] if logs else [])]
 
     def _entered(self, result: Graded) -> Grade:
-        """Enter a grade into the gradebook, which is opened at the first; return it with a person's points."""
+        """Enter a grade into the gradebook; return the grade with the points that a person gave."""
         work = result.work
         self._problems.pop((work.student, work.exercise), None)
         try:

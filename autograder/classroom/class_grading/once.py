@@ -1,4 +1,4 @@
-"""Grades what is in a folder, and writes everything at the end."""
+"""Grades the submissions in a folder once, and writes all results at the end."""
 
 from __future__ import annotations
 
@@ -23,32 +23,32 @@ from autograder.classroom.class_grading.output import (
     print_summary,
     print_ungraded,
 )
-from autograder.classroom.class_grading.setting import Setting, prepared
+from autograder.classroom.class_grading.prepared_batch import PreparedBatch, prepared
 from course_cli.ending import batch_status
 
 
 def grade_once(console: Console, request: BatchRequest) -> int:
-    """Grade a batch; return the exit status: 0 if all that was handed in has a grade and is in the gradebook.
+    """Grade a batch; return the exit status: 0 if every submission has a grade in the gradebook.
 
     Raises:
         NoSubmissions, NothingSelected: there is nothing to grade.
-        UnusableExercise: an author has something to mend.
-        Exception: those of `prepared`.
+        UnusableExercise: the exercise's author has to correct the exercise.
+        Exception: the exceptions of `prepared`.
     """
     collection = collect(request.submitted)
     works = select(collection.works, request.students, request.exercises)
     is_entered = True
-    with prepared(console, request, collection.works) as setting:
-        record = replace(setting.record, left_aside=collection.ignored, refused=collection.refused)
-        results = _grade(setting, request.shard.part(works) if request.shard else works, record)
-        rows = record.rows if request.keeps_others else ()  # drops the rows of removed submissions
+    with prepared(console, request, collection.works) as batch:
+        record = replace(batch.record, left_aside=collection.ignored, refused=collection.refused)
+        results = _grade(batch, request.shard.part(works) if request.shard else works, record)
+        rows = record.rows if request.keeps_others else ()  # without the rows of removed submissions
         record = replace(record, rows=rows, left_aside=left_aside(collection, results))
         record = record.with_results(results).closed("ended")
-        grades = with_others([result.grade for result in results], setting.before)
+        grades = with_others([result.grade for result in results], batch.before)
         write_grades(request.out / GRADES, grades)
         if request.shard:
             write_batch(request.out, record)
-            write_shard(request.out, request.shard, setting.seeds, collection.works, results)
+            write_shard(request.out, request.shard, batch.seeds, collection.works, results)
         else:
             files = ClassFiles(request.out, grades, record, json_file=request.json_file)
             add_all(console, files, results)
@@ -58,17 +58,17 @@ def grade_once(console: Console, request: BatchRequest) -> int:
         print_recordings(console, request.out, results)
     if request.shard:
         console.print(
-            f"{request.out / SHARD}; join all of them with `course merge`", style="dim", markup=False
+            f"{request.out / SHARD}; merge all shards with `course merge`", style="dim", markup=False
         )
     return batch_status(not_graded=not_graded, complete=is_entered and not collection.refused)
 
 
-def _grade(setting: Setting, works: Sequence[Work], record: BatchRecord) -> list[Graded]:
+def _grade(batch: PreparedBatch, works: Sequence[Work], record: BatchRecord) -> list[Graded]:
     """Grade in parallel and return the results in the order of the submissions."""
-    out, results = setting.request.out, dict[Work, Graded]()
+    out, results = batch.request.out, dict[Work, Graded]()
     write_batch(out, record)  # stores the seed, so that a killed batch can be resumed with it
     try:
-        with closing(setting.graded(works)) as graded:
+        with closing(batch.graded(works)) as graded:
             for result in graded:
                 results[result.work] = result
     except KeyboardInterrupt:

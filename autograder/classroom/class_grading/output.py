@@ -1,4 +1,4 @@
-"""What the commands that grade a class print: the table, what has no grade, and where the results are."""
+"""Prints the results of grading a class: the table, the submissions without a grade, and the paths of the files."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from autograder.report.table import class_table
 
 
 def add_all(console: Console, files: ClassFiles, results: Sequence[Graded]) -> None:
-    """Add results to the files of a class, behind a progress bar: nbgrader takes its time."""
+    """Add results to the files of a class; nbgrader is slow, so a progress bar is shown."""
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),
@@ -31,7 +31,7 @@ def add_all(console: Console, files: ClassFiles, results: Sequence[Graded]) -> N
 
 
 def print_problems(console: Console, files: ClassFiles) -> bool:
-    """Print the grades that are not in the gradebook; return whether there are none."""
+    """Print the grades that are not in the gradebook; return whether all grades are in it."""
     problems = files.problems()
     for line in problems:
         console.print(f"not in the gradebook: {line}", style="red", markup=False)
@@ -44,15 +44,15 @@ def print_summary(console: Console, files: ClassFiles, out: Path, page: Path) ->
     is_entered = print_problems(console, files)
     if to_mark := sum(grade.status == "to mark" for grade in files.grades):
         console.print(
-            f"{to_mark} to be marked by hand, in formgrader; then run this again with --resume, and {GRADES} has "
-            "the points",
+            f"{to_mark} to be marked by hand, in formgrader; then run this command again with --resume to write the "
+            f"points to {GRADES}",
             style="cyan",
         )
-    console.print(f"to read first: {page}", markup=False, soft_wrap=True)
+    console.print(f"read this first: {page}", markup=False, soft_wrap=True)
     console.print(f"{out / GRADES}, {out / 'gradebook.db'}, {out / 'feedback'}/", style="dim", markup=False)
     jupyter = Path(sys.executable).with_name("jupyter")
     console.print(
-        f"to look at them in nbgrader: cd {out} && {jupyter} lab, then Nbgrader > Formgrader", style="dim"
+        f"open them in nbgrader: cd {out} && {jupyter} lab, then Nbgrader > Formgrader", style="dim"
     )
     return is_entered
 
@@ -60,15 +60,15 @@ def print_summary(console: Console, files: ClassFiles, out: Path, page: Path) ->
 def print_recordings(console: Console, out: Path, results: Sequence[Graded]) -> None:
     """Print where the recordings are, and how many grades have none."""
     console.print(
-        f"recordings: {out / RECORDINGS}/<student>/<exercise>/<scenario>.mcap, hidden checks included; look at one: "
+        f"recordings: {out / RECORDINGS}/<student>/<exercise>/<scenario>.mcap, hidden checks included; show one: "
         "./course replay FILE",
         style="dim",
         markup=False,
     )
     if cached := sum(result.cached for result in results):
         console.print(
-            f"{cached} grades are from an earlier run, and nothing was recorded of them now; to record them, grade "
-            "again without --resume, with the --seed that batch.json names",
+            f"{cached} grades are from an earlier run and have no new recording; to record them, grade again without "
+            "--resume, with the --seed in batch.json",
             style="yellow",
         )
 
@@ -79,7 +79,7 @@ def left_aside(collection: Collection, results: Iterable[Graded]) -> list[str]:
 
 
 def print_ungraded(console: Console, collection: Collection, results: Iterable[Graded]) -> int:
-    """Print what has no grade; return the number of submissions that the grader failed to judge."""
+    """Print the files and folders without a grade; return the number of submissions that the grader failed to judge."""
     results = list(results)
     for line in left_aside(collection, results):
         console.print(f"left aside: {line}", style="yellow", markup=False)
@@ -88,7 +88,7 @@ def print_ungraded(console: Console, collection: Collection, results: Iterable[G
     not_graded = sum(result.grade.status == "not graded" for result in results)
     if not_graded:
         console.print(
-            f"{not_graded} not graded; try those again with --resume --jobs 1, when the machine has less to do",
+            f"{not_graded} not graded; grade them again with --resume --jobs 1, when the machine is less busy",
             style="magenta",
         )
     return not_graded

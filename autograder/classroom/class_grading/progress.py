@@ -1,4 +1,4 @@
-"""The progress display of a batch: what is done, the time left, and what is running."""
+"""The progress display of a batch: the number of graded submissions, the time left, and the running jobs."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from autograder.classroom.batch.runner import Graded
 from autograder.engine.verdict import CheckVerdict
 from autograder.report.table import progress_line
 
-MOST_SHOWN = 8  # running submissions that are listed
-PERIOD = 30.0  # s between two progress lines without a terminal
-BAR = 20  # characters
+MAX_LISTED_JOBS = 8  # running submissions that are listed
+PRINT_PERIOD = 30.0  # s between two progress lines without a terminal
+BAR_WIDTH = 20  # characters
 
 
 class BatchProgress:
-    """Lines at the bottom of a terminal that are redrawn; without a terminal, a line every half minute.
+    """Redraws lines at the bottom of a terminal; without a terminal, prints a line every half minute.
 
     Args:
         console: the output.
-        elsewhere: number of workers on other machines; their running jobs are not shown.
+        elsewhere: number of workers on other machines, whose running jobs are not shown.
         clock: returns the time, s.
     """
 
@@ -41,16 +41,16 @@ class BatchProgress:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._console = console
-        self._submissions: int | None = None  # nobody knows while they come in
+        self._submissions: int | None = None  # unknown while submissions arrive
         self._elsewhere = elsewhere
         self._clock = clock
         self._pace = Pace(0, clock)
         self._graded = 0
-        self._began: dict[tuple[str, str], float] = {}  # what runs, and since when
-        self._said = clock()
+        self._began: dict[tuple[str, str], float] = {}  # start time of each running job, s
+        self._printed_at = clock()
         self._lock = threading.Lock()
         self._live = (
-            Live(get_renderable=self._picture, console=console, refresh_per_second=2, transient=True)
+            Live(get_renderable=self._display, console=console, refresh_per_second=2, transient=True)
             if console.is_terminal
             else None
         )
@@ -72,26 +72,26 @@ class BatchProgress:
         self._submissions = submissions
 
     def verdict(self, _verdict: CheckVerdict) -> None:
-        """Count a verdict; on any thread."""
+        """Count a verdict; may be called on any thread."""
         with self._lock:
             self._pace.add()
-        self._say_now_and_then()
+        self._print_when_due()
 
     def running(self, jobs: Sequence[GradingJob]) -> None:
-        """Show these running jobs; on any thread."""
+        """Show these running jobs; may be called on any thread."""
         with self._lock:
             now = self._clock()
             self._began = {
                 key: self._began.get(key, now) for key in ((job.student, job.exercise) for job in jobs)
             }
-        self._say_now_and_then()
+        self._print_when_due()
 
     def retry_later(self, job: GradingJob, outcome: Outcome) -> None:
-        """Print that a job could not be graded and will be repeated at the end."""
-        if not self._elsewhere:  # its verdicts were counted and will be counted again
+        """Print that a job could not be graded and will be retried at the end."""
+        if not self._elsewhere:  # the job's verdicts were counted and will be counted again
             self._pace.expect(len(outcome.grade.checks))
         self._console.print(
-            f"{job.student} · {job.exercise}  not graded yet, once more at the end, alone: "
+            f"{job.student} · {job.exercise}  not graded yet, will be retried alone at the end: "
             f"{outcome.grade.why_not_graded}",
             style="magenta",
             markup=False,
@@ -99,20 +99,20 @@ class BatchProgress:
         )
 
     def graded(self, result: Graded, checks: int) -> None:
-        """Print the line of a result that should have as many verdicts as there are checks."""
+        """Print the line of a result; `checks` is the number of verdicts that it should have."""
         given = len(result.grade.checks)
         with self._lock:
             self._graded += 1
             self._pace.add(max(0, checks - given))
             if result.cached or not (result.effort and result.effort.arenas):
-                self._pace.was_known(checks)
+                self._pace.exclude_from_rate(checks)
         self._console.print(progress_line(result.grade, cached=result.cached))
-        self._say_now_and_then()
+        self._print_when_due()
 
-    def _say_now_and_then(self) -> None:
-        if self._live or self._clock() - self._said < PERIOD:
+    def _print_when_due(self) -> None:
+        if self._live or self._clock() - self._printed_at < PRINT_PERIOD:
             return
-        self._said = self._clock()
+        self._printed_at = self._clock()
         running = f"; running: {', '.join(self._names())}" if self._began else ""
         self._console.print(f"… {self._summary()}{running}", style="dim", markup=False, soft_wrap=True)
 
@@ -124,35 +124,39 @@ class BatchProgress:
 
     def _names(self) -> list[str]:
         names = [f"{student} · {exercise}" for student, exercise in list(self._began)]
-        return names[:MOST_SHOWN] + ([f"{len(names) - MOST_SHOWN} more"] if len(names) > MOST_SHOWN else [])
+        return names[:MAX_LISTED_JOBS] + (
+            [f"{len(names) - MAX_LISTED_JOBS} more"] if len(names) > MAX_LISTED_JOBS else []
+        )
 
-    def _picture(self) -> RenderableType:
+    def _display(self) -> RenderableType:
         with self._lock:
             rows, now = list(self._began.items()), self._clock()
             first = Table.grid(padding=(0, 1))
             if self._submissions is None:
                 first.add_row(Text(self._summary()))
             else:
-                bar = ProgressBar(total=max(1, self._pace.expected), completed=self._pace.done, width=BAR)
+                bar = ProgressBar(
+                    total=max(1, self._pace.expected), completed=self._pace.done, width=BAR_WIDTH
+                )
                 first.add_row(bar, Text(self._summary()))
         table = Table.grid(padding=(0, 2))
-        for (student, exercise), since in rows[:MOST_SHOWN]:
+        for (student, exercise), since in rows[:MAX_LISTED_JOBS]:
             minutes, seconds = divmod(int(now - since), 60)
             table.add_row("  running", escape(f"{student} · {exercise}"), f"{minutes}:{seconds:02}")
-        if len(rows) > MOST_SHOWN:
-            table.add_row("", f"and {len(rows) - MOST_SHOWN} more", "")
+        if len(rows) > MAX_LISTED_JOBS:
+            table.add_row("", f"and {len(rows) - MAX_LISTED_JOBS} more", "")
         if self._elsewhere:
             table.add_row("  running", f"on {self._elsewhere} workers of the cluster", "")
         return Group(first, table)
 
 
 class Pace:
-    """Counts done items of `expected`; items from the cache count as done but not for the rate."""
+    """Counts done items and estimates the time left; items from the cache count as done, but not for the rate."""
 
     def __init__(self, expected: int, clock: Callable[[], float] = time.monotonic) -> None:
         self.expected = expected
         self.done = 0
-        self._known = 0
+        self._excluded = 0
         self._clock = clock
         self._began = clock()
 
@@ -160,17 +164,17 @@ class Pace:
         """Add `number` done items."""
         self.done += number
 
-    def was_known(self, number: int) -> None:
+    def exclude_from_rate(self, number: int) -> None:
         """Exclude `number` of the done items from the rate, because they came from the cache."""
-        self._known += number
+        self._excluded += number
 
     def expect(self, number: int) -> None:
         """Add `number` expected items."""
         self.expected += number
 
     def seconds_left(self) -> float | None:
-        """Return the time left (s) at the rate so far; None before anything was measured."""
-        measured, elapsed = self.done - self._known, self._clock() - self._began
+        """Return the time left (s) at the rate so far; None while the rate is unknown."""
+        measured, elapsed = self.done - self._excluded, self._clock() - self._began
         if measured <= 0 or elapsed <= 0:
             return None
         return max(0, self.expected - self.done) * elapsed / measured

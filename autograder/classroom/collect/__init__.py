@@ -1,1 +1,1 @@
-"""From what a platform lets an instructor download to submitted/<student>/<exercise>/, which `course grade` reads."""
+"""Converts a platform's download to submitted/<student>/<exercise>/, which `course grade` reads."""

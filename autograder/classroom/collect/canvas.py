@@ -1,10 +1,10 @@
-"""Canvas' “Download Submissions”: name_[LATE_]USER_ATTACHMENT_file, all in one folder.
+"""Reads Canvas' “Download Submissions”, one folder of files called name_[LATE_]USER_ATTACHMENT_file.
 
-Format: lib/content_zipper.rb of https://github.com/instructure/canvas-lms. Where an assignment is anonymous the name is
-left out and five letters or digits stand for the user: [LATE_]anon_USER_ATTACHMENT_file.
+Format: lib/content_zipper.rb of https://github.com/instructure/canvas-lms. In an anonymous assignment the files are
+called [LATE_]anon_USER_ATTACHMENT_file, and USER has five letters or digits.
 
-A file that replaces one of the same name is called file-1, file-2 …; the attachment's number says which is the last.
-The student's folder ends with Canvas' number of the user, by which `course export` finds their row.
+Canvas adds -1, -2 … to the name of a file that replaces an earlier one; the file with the highest attachment number is
+the latest. The student's folder ends with Canvas' number of the user, by which `course export` finds the user's row.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Assigns a student's files to exercises, and chooses the one to grade."""
+"""Assigns students' files to exercises, and chooses the file to grade for each."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ ARCHIVES = (".zip", ".gz", ".tgz", ".bz2", ".xz", ".tar", ".7z", ".rar")
 
 @dataclass
 class Choice:
-    """The files to keep, by student and exercise, and a sentence on each file that is left aside."""
+    """The submissions to keep, by student and exercise, and a sentence on each file that is left aside."""
 
     works: dict[tuple[str, str], Candidate] = field(default_factory=dict)
     left_aside: list[str] = field(default_factory=list)
@@ -22,7 +22,7 @@ class Choice:
 
 
 def choose(files: Sequence[HandedIn], assignment: Assignment) -> Choice:
-    """Assign every file to an exercise by its name, or to the download's exercise; choose as `engine.hand_in` does."""
+    """Assign every file to an exercise, by its name or the options; choose one of several like `engine.hand_in`."""
     choice = Choice()
     names = Names(files_of_exercises())
     found: dict[tuple[str, str], list[Candidate]] = {}
@@ -32,15 +32,17 @@ def choose(files: Sequence[HandedIn], assignment: Assignment) -> Choice:
         named = names.of(one.name) or (names.any_of(only, one.name) if only else None)
         if not named and one.file.path.suffix.lower() in ARCHIVES:
             choice.left_aside.append(
-                f"{one.file.path} is an archive, and archives are not opened: unpack the download, and put the work "
-                f"beside it ({one.student})"
+                f"{one.file.path} is an archive, and archives are not opened: unpack the download, then "
+                f"this archive into the same folder ({one.student})"
             )
         elif not named:
             choice.left_aside.append(f"{one.file.path} is not named like an exercise's file ({one.student})")
         elif only and named.exercise != only:
-            choice.left_aside.append(f"{one.file.path} is of {named.exercise}, not of {only} ({one.student})")
+            choice.left_aside.append(
+                f"{one.file.path} is for {named.exercise}, not for {only} ({one.student})"
+            )
         elif folders and folders[-1] != named.exercise:
-            choice.left_aside.append(f"{one.file.path} lies in the folder of {folders[-1]} ({one.student})")
+            choice.left_aside.append(f"{one.file.path} is in the folder of {folders[-1]} ({one.student})")
         else:
             depth = len(one.file.path.parts) - bool(folders)
             candidate = Candidate(

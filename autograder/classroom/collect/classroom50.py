@@ -1,8 +1,8 @@
-"""Classroom 50's `gh teacher download`: a clone for each student, <classroom>-<assignment>-<user>/.
+"""Reads Classroom 50's `gh teacher download`: a clone for each student, <classroom>-<assignment>-<user>/.
 
-Format: cli/gh-teacher/internal/download/download.go of https://github.com/foundation50/classroom50; it also writes
-scores.csv beside the folders, and result.json and results.json into them. Each part of a name may have hyphens of its
-own; what stands between is found because it is the exercise's name, or given.
+Format: cli/gh-teacher/internal/download/download.go of https://github.com/foundation50/classroom50. The command also
+writes scores.csv beside the folders, and result.json and results.json into them. Each part of a folder's name may
+contain hyphens. The assignment in the middle is found because it is the exercise's name, or the --assignment given.
 """
 
 from __future__ import annotations
@@ -22,23 +22,23 @@ def read(download: Download, assignment: Assignment) -> Reading:
     exercises = _by_slug(assignment)
     slugs = "|".join(sorted(map(re.escape, exercises), key=len, reverse=True))
     folder = re.compile(rf"(?P<classroom>.+?)-(?P<slug>{slugs})-(?P<user>[^/]+)", re.IGNORECASE)
-    strangers: set[str] = set()
+    unknown_names: set[str] = set()
     for file, parts in without_wrapper(download, folder):
         match = folder.fullmatch(parts[0])
         if not match or len(parts) == 1:
-            strangers.add(parts[0])
+            unknown_names.add(parts[0])
             continue
         reading.add(file, parts[-1], match["user"], exercise=exercises[match["slug"].lower()])
     known = ", ".join(sorted(exercises))
     reading.unknown = [
         f"{name} is not named <classroom>-<assignment>-<user> with an assignment of {known}"
-        for name in sorted(strangers)
+        for name in sorted(unknown_names)
     ]
     return reading
 
 
 def _by_slug(assignment: Assignment) -> dict[str, str]:
-    """The exercises by the assignment's name in a folder's name."""
+    """Return the exercises by the name that their assignment has in a folder's name."""
     if assignment.slug:
         return {assignment.slug.lower(): assignment.exercise}
     names = [assignment.exercise] if assignment.exercise else all_names()

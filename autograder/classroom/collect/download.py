@@ -1,7 +1,8 @@
-"""A download as a list of files, from a zip or a folder: nothing is unpacked, and all reading is limited.
+"""Lists the files of a download, a zip file or a folder, without unpacking it.
 
-Its content comes from students and is not trusted. Names in a zip are never used as paths; links, devices and paths
-that leave the download are refused; no file is read beyond the size limit of a submission, whatever the zip declares.
+The content comes from students and is not trusted. Names in a zip file are never used as paths. Links, devices and
+paths that leave the download are refused. No file is read beyond the size limit of a submission, even if the zip file
+declares a smaller size.
 """
 
 from __future__ import annotations
@@ -21,13 +22,13 @@ from autograder.engine.hand_in import TOOL_FOLDERS
 from autograder.engine.submission import CLEAR_OUTPUTS, MAX_NOTEBOOK_BYTES, UnusableSubmission
 from ros_runtime.course_error import CourseError
 
-MOST_FILES = 200_000
-MOST_BYTES = 4 * 2**30  # bytes read from one download, in total
-_HIDDEN = re.compile(r"\.[^.].*")  # of git, Jupyter, editors and virtual environments, and what macOS adds
+MAX_FILES = 200_000
+MAX_TOTAL_BYTES = 4 * 2**30  # bytes read from one download, in total
+_HIDDEN = re.compile(r"\.[^.].*")  # files of git, Jupyter, editors, virtual environments and macOS
 
 
 class UnusableDownload(CourseError):
-    """The download cannot be read as one of the platform; the message says what was found and what is expected."""
+    """The file or folder is not a download of the platform; the message says what was found and what is expected."""
 
 
 class Refused(UnusableSubmission):
@@ -44,10 +45,11 @@ class File:
     changed: float = 0.0
 
     def read(self, limit: int) -> bytes:
-        """Return its content.
+        """Return the file's content.
 
         Raises:
-            Refused: it has more than `limit` bytes, cannot be read, or the download has too much in it.
+            Refused: the file has more than `limit` bytes or cannot be read.
+            UnusableDownload: more than MAX_TOTAL_BYTES would be read of this download.
         """
         try:
             with self.open() as file:
@@ -63,16 +65,16 @@ class File:
 
 @dataclass
 class Budget:
-    """The bytes that may still be read of a download."""
+    """The number of bytes that may still be read from a download."""
 
-    left: int = MOST_BYTES
+    left: int = MAX_TOTAL_BYTES
 
     def spend(self, count: int) -> None:
         """Subtract `count` bytes; raises `UnusableDownload` when the budget is exceeded."""
         self.left -= count
         if self.left < 0:
             raise UnusableDownload(
-                f"the download holds more than {MOST_BYTES // 2**30} GiB; collect it in parts"
+                f"the download holds more than {MAX_TOTAL_BYTES // 2**30} GiB; collect it in parts"
             )
 
 
@@ -89,7 +91,7 @@ def open_download(path: Path) -> Iterator[Download]:
     """Open a zip file or a folder.
 
     Raises:
-        UnusableDownload: it is neither, or has too many files.
+        UnusableDownload: `path` is neither a zip file nor a folder, or it has too many files.
     """
     budget = Budget()
     if path.is_dir():
@@ -111,8 +113,8 @@ def _sorted(found: Iterator[File | str]) -> Download:
             refused.append(one)
         else:
             files.append(one)
-        if len(files) + len(refused) > MOST_FILES:
-            raise UnusableDownload(f"the download holds more than {MOST_FILES:,} files; collect it in parts")
+        if len(files) + len(refused) > MAX_FILES:
+            raise UnusableDownload(f"the download holds more than {MAX_FILES:,} files; collect it in parts")
     return Download(sorted(files, key=lambda file: file.path), refused)
 
 
@@ -123,8 +125,8 @@ def _from_zip(archive: zipfile.ZipFile, budget: Budget) -> Iterator[File | str]:
         kind = stat.S_IFMT(entry.external_attr >> 16)
         if entry.filename.endswith(("/", "\\")) or _is_junk(path):
             continue
-        if _leads_out(path):
-            yield f"{entry.filename!r} leads out of the download"
+        if _leaves_download(path):
+            yield f"{entry.filename!r} is a path outside the download"
         elif kind not in (0, stat.S_IFREG):
             yield f"{entry.filename!r} is a link or a device"
         elif entry.flag_bits & 1:
@@ -137,11 +139,11 @@ def _from_zip(archive: zipfile.ZipFile, budget: Budget) -> Iterator[File | str]:
 
 
 def _place(name: str) -> PurePosixPath:
-    """The path of a zip entry; some Windows programs write backslashes as separators, against the format."""
+    """Return the path of a zip entry; some Windows programs write backslashes, which the format does not allow."""
     return PurePosixPath(name.replace("\\", "/"))
 
 
-def _leads_out(path: PurePosixPath) -> bool:
+def _leaves_download(path: PurePosixPath) -> bool:
     return path.is_absolute() or ".." in path.parts or ":" in path.parts[0][1:2]
 
 
@@ -168,8 +170,8 @@ def _from_folder(folder: Path, budget: Budget) -> Iterator[File | str]:
             if _is_junk(path):
                 continue
             found = os.lstat(os.path.join(place, name))
-            if _leads_out(path):
-                yield f"{name!r} leads out of the download"
+            if _leaves_download(path):
+                yield f"{name!r} is a path outside the download"
             elif stat.S_ISREG(found.st_mode):
                 yield File(path, _plain_opener(Path(place) / name), budget, found.st_mtime)
             else:

@@ -1,8 +1,8 @@
-"""Gradescope's “Export Submissions”: folders submission_NUMBER, and submission_metadata.yml, which says whose they are.
+"""Reads Gradescope's “Export Submissions”: folders submission_NUMBER, and submission_metadata.yml with their students.
 
-Format: https://help.gradescope.com, “Export submissions”; the metadata is YAML as Ruby writes it, in one form for all
-languages. A student's folder is called by their student id, else by their e-mail address. Work of a group goes to each
-of it.
+Format: https://help.gradescope.com, “Export submissions”. The metadata is YAML as Ruby writes it, the same in every
+language of the site. A student's folder has the name of their student id, else of their e-mail address, else their
+name. The work of a group is collected for each of its students.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from autograder.classroom.collect.handed_in import Assignment, Reading, without_
 
 EXPECTED = "submission_metadata.yml, and folders such as submission_12345 beside it"
 METADATA = "submission_metadata.yml"
-MOST_BYTES = 100_000_000  # bytes of the metadata, which repeats every test of every submission
+MAX_METADATA_BYTES = 100_000_000  # the metadata contains every test of every submission
 _FOLDER = re.compile(r"submission_(?P<number>\d{1,18})")
 
 
 class _Loader(yaml.CSafeLoader if hasattr(yaml, "CSafeLoader") else yaml.SafeLoader):  # type: ignore[misc]
-    """Reads plain data only; what Ruby marks as objects of its own are mappings or nothing."""
+    """Reads plain data only; objects of Ruby's own types become mappings or None."""
 
 
 def _plain(loader: yaml.SafeLoader, tag: str, node: yaml.Node) -> Any:
@@ -44,7 +44,7 @@ def read(download: Download, assignment: Assignment) -> Reading:
         found = _FOLDER.fullmatch(parts[0])
         about = submissions.get(parts[0])
         if not found or len(parts) == 1 or not isinstance(about, Mapping):
-            reading.unknown.append(f"{file.path} belongs to no submission that {METADATA} lists")
+            reading.unknown.append(f"{file.path} belongs to no submission in {METADATA}")
             continue
         submitters = about.get(":submitters") or [{}]
         for name in map(_name_of, submitters):
@@ -52,7 +52,7 @@ def read(download: Download, assignment: Assignment) -> Reading:
                 turn, when = int(found["number"]), _timestamp(about.get(":created_at"))
                 reading.add(file, file.path.name, name, turn=turn, timestamp=when)
             else:
-                reading.refused.append(f"{file.path}: {METADATA} does not name its student")
+                reading.refused.append(f"{file.path}: {METADATA} does not name the student")
     return reading
 
 
@@ -63,11 +63,11 @@ def _metadata(download: Download) -> Mapping[str, Any]:
             f"there is no {METADATA}; expected Gradescope's export of submissions: {EXPECTED}"
         )
     try:
-        read = yaml.load(places[0].read(MOST_BYTES), Loader=_Loader)
+        read = yaml.load(places[0].read(MAX_METADATA_BYTES), Loader=_Loader)
     except (yaml.YAMLError, Refused, ValueError, RecursionError) as error:
         raise UnusableDownload(f"{places[0].path} cannot be read: {error}") from error
     if not isinstance(read, Mapping):
-        raise UnusableDownload(f"{places[0].path} is no list of submissions; expected {EXPECTED}")
+        raise UnusableDownload(f"{places[0].path} is not a list of submissions; expected {EXPECTED}")
     return read
 
 

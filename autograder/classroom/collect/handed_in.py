@@ -1,4 +1,4 @@
-"""The common output of the platforms' readers: students' files."""
+"""The common output of the platforms' readers: the files that students handed in."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 from autograder.classroom.batch.collection import STUDENT
 from autograder.classroom.collect.download import Download, File, Refused
 
-LONGEST_NAME = 100  # characters
+MAX_NAME_LENGTH = 100  # characters
 
 
 @dataclass(frozen=True)
@@ -19,13 +19,13 @@ class HandedIn:
     """One file of one student.
 
     Attributes:
-        student: the name of their folder.
-        name: the file's, as the student called it.
-        file: where its content is.
-        turn: order of hand-ins; of two files for the same exercise the one with the higher turn is used.
-        exercise: if the platform names it.
-        late: if the platform says so.
-        timestamp: when it was handed in, as nbgrader writes it; "" if the platform does not say.
+        student: the name of the student's folder.
+        name: the file's name, as the student called it.
+        file: the file in the download.
+        turn: the order of hand-ins; of two files for the same exercise the one with the higher turn is used.
+        exercise: the exercise, if the platform names it; else "".
+        late: whether the platform marks the file as late.
+        timestamp: when the file was handed in, as nbgrader writes it; "" if the platform does not say.
     """
 
     student: str
@@ -39,14 +39,14 @@ class HandedIn:
 
 @dataclass
 class Reading:
-    """The files that a platform's reader found, and a sentence on each file that is unknown or not read."""
+    """The files that a platform's reader found, and a sentence on each file that is unknown or refused."""
 
     files: list[HandedIn] = field(default_factory=list)
     unknown: list[str] = field(default_factory=list)
     refused: list[str] = field(default_factory=list)
 
     def add(self, file: File, name: str, *student: str, **more: Any) -> None:
-        """Add a file: its name, the words of its student's name, and fields of `HandedIn`; refuse unusable names."""
+        """Add a student's file; `student`: the words of the student's name. Refuse it if they make no valid name."""
         try:
             self.files.append(HandedIn(student_name(*student), name, file, **more))
         except Refused as error:
@@ -55,7 +55,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class Assignment:
-    """The instructor's options for a download: its exercise, and the platform's name for that; "" if not given."""
+    """The instructor's options for a download: its exercise, and the platform's name for it; "" if not given."""
 
     exercise: str = ""
     slug: str = ""
@@ -65,19 +65,20 @@ def student_name(*words: str) -> str:
     """Return a name for a student's folder: the non-empty words joined by "-", without invalid characters.
 
     Raises:
-        Refused: nothing usable is left.
+        Refused: the result is not a valid name.
     """
     joined = unicodedata.normalize("NFC", "-".join(word.strip() for word in words if word.strip()))
     name = re.sub(r"[^\w@+.,' -]", "_", joined).strip()
-    if not STUDENT.fullmatch(name) or len(name) > LONGEST_NAME:
-        raise Refused(f"{joined[:LONGEST_NAME]!r} cannot be the name of a student's folder")
+    if not STUDENT.fullmatch(name) or len(name) > MAX_NAME_LENGTH:
+        raise Refused(f"{joined[:MAX_NAME_LENGTH]!r} cannot be the name of a student's folder")
     return name
 
 
 def without_wrapper(download: Download, student: re.Pattern[str]) -> Iterator[tuple[File, tuple[str, ...]]]:
-    """Yield each file with the parts of its path, without a top folder around everything, which unpacking creates.
+    """Yield each file with the parts of its path, without the one top folder that unpacking may have created.
 
-    So a file's student is read from the platform's own folder, never from a folder that a student made below it.
+    The first part is then the platform's own folder, from which the student is read, and never a folder that the
+    student made.
     """
     tops = {file.path.parts[0] for file in download.files}
     wrapped = len(tops) == 1 and not student.fullmatch(min(tops)) and len(download.files[0].path.parts) > 1

@@ -1,9 +1,9 @@
-"""Moodle's “Download all submissions”: Name_NUMBER_assignsubmission_file/file, or without the folder.
+"""Reads Moodle's “Download all submissions”: Name_NUMBER_assignsubmission_file/file, or without the folder.
 
-Format: mod/assign/classes/downloader.php of https://github.com/moodle/moodle; before Moodle 4.1 the folder's name ended
-with one more underscore. The number is the participant's in this assignment, the same as in its grading worksheet; the
-name is the word for a participant where the assignment is anonymous. Where groups hand in, name and number are the
-group's, and those who are in no group have no number.
+Format: mod/assign/classes/downloader.php of https://github.com/moodle/moodle. Before Moodle 4.1 the folder's name ended
+with one more underscore. The number identifies the participant in this assignment and is the same in its grading
+worksheet. In an anonymous assignment every name is the word “Participant”, in the site's language. If groups hand in,
+name and number are the group's, and students without a group have no number.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import re
 from autograder.classroom.collect.download import Download
 from autograder.classroom.collect.handed_in import Assignment, Reading, without_wrapper
 
-EXPECTED = "folders such as Anna Lee_12345_assignsubmission_file, or files whose names begin so"
+EXPECTED = "folders such as Anna Lee_12345_assignsubmission_file, or files whose names begin like this"
 _MARK = "_assignsubmission_file"
 _NAME = re.compile(rf"(?P<name>.+?)(?:_(?P<user>\d+))?{_MARK}(?:_(?P<file>.*))?")
 

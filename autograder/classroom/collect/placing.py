@@ -1,4 +1,4 @@
-"""Writes the chosen files to submitted/<student>/<exercise>/; overwrites other work only on request."""
+"""Writes the chosen files to submitted/<student>/<exercise>/; overwrites different work only with --overwrite."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TIMESTAMP = "timestamp.txt"
 
 @dataclass
 class Placed:
-    """The submissions written or already there, by student and exercise, and a sentence on each one not written."""
+    """The submissions written or unchanged, by student and exercise, and a sentence on each that was refused."""
 
     written: list[tuple[str, str]] = field(default_factory=list)
     unchanged: list[tuple[str, str]] = field(default_factory=list)
@@ -35,9 +35,9 @@ def place(choice: Choice, out: Path, *, overwrite: bool) -> Placed:
             placed.refused.append(f"{student}'s {exercise}: {error}")
             continue
         if folder.is_symlink() or folder.parent.is_symlink() or (folder.exists() and not folder.is_dir()):
-            placed.refused.append(f"{student}'s {exercise}: {folder} is no folder of its own; move it away")
+            placed.refused.append(f"{student}'s {exercise}: {folder} is a link or not a folder; move it away")
             continue
-        before = _there(folder, exercise)
+        before = _existing_files(folder, exercise)
         if before == contents:
             placed.unchanged.append((student, exercise))
         elif before and not overwrite:
@@ -50,8 +50,8 @@ def place(choice: Choice, out: Path, *, overwrite: bool) -> Placed:
     return placed
 
 
-def _there(folder: Path, exercise: str) -> dict[str, bytes | None]:
-    """The files that a grader would read in the folder now; None for one that is not a regular file."""
+def _existing_files(folder: Path, exercise: str) -> dict[str, bytes | None]:
+    """Return the content of the files that a grader would read in the folder; None for a link or a folder."""
     places = [folder / name for name in (f"{exercise}.ipynb", *file_names(exercise))]
     return {
         path.name: path.read_bytes() if path.is_file() and not path.is_symlink() else None

@@ -1,4 +1,4 @@
-"""`course audit`: every check must catch its faults, and no correct submission may fail; mistakes cost points."""
+"""`course audit`: tests that each known fault is caught by the right check, and that no correct submission fails."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from autograder.classroom.audit.run import AuditedRun
 from autograder.classroom.audit.run import audit as audit_submissions
 from autograder.engine.exercise import Exercise, exercise_names, load_exercise
 from autograder.isolation.availability import available_isolation
-from course_cli.ending import COULD_NOT, ended
+from course_cli.ending import COULD_NOT, error_exit
 from course_cli.options import CourseOption, JobsOption
 from ros_runtime.course_error import CourseError
 
-MATRIX_WIDTH = 140
+MATRIX_WIDTH = 140  # characters
 
 
 def audit(
@@ -36,9 +36,9 @@ def audit(
     jobs: JobsOption = 2,
     repeat: Annotated[
         int,
-        typer.Option(min=1, help="how often to grade each submission, each time with other scenario inputs"),
+        typer.Option(min=1, help="number of times to grade each submission, each time with other inputs"),
     ] = 1,
-    seed: Annotated[int, typer.Option(min=0, help="scenario inputs of the first of these gradings")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="seed of the inputs in the first repetition")] = 0,
     only: Annotated[
         str,
         typer.Option(
@@ -52,16 +52,17 @@ def audit(
         bool,
         typer.Option(
             "--generated",
-            help="make one mistake each in correct submissions, and grade them: all must lose points. The first "
-            "failure ends a grading. At the end it prints the diffs of the survivors, and what to do about them",
+            help="make mutants, which are correct submissions with one mistake each, and grade them: each must lose a "
+            "point. The first failed check ends a grading. At the end, print the diffs of the mutants that kept full "
+            "marks, and what to do about them",
         ),
     ] = False,
     mutants: Annotated[
         int | None,
         typer.Option(
             min=1,
-            help="how many of them to grade of each exercise, of each kind of mistake in turn "
-            "(default: 60; 30 where the robot moves)",
+            help="number of mutants to grade for each exercise, chosen from each kind of mistake in turn "
+            "(default: 60; 30 if the robot moves)",
         ),
     ] = None,
     json_file: Annotated[
@@ -69,9 +70,7 @@ def audit(
     ] = None,
     resume: Annotated[
         bool,
-        typer.Option(
-            "--resume", help="continue with the file of --json: reuse its gradings of unchanged submissions"
-        ),
+        typer.Option("--resume", help="reuse the gradings of unchanged submissions in the file of --json"),
     ] = False,
     show: Annotated[
         str | None,
@@ -90,7 +89,7 @@ def audit(
     if generated and (ignored := _given(context, "repeat", "to_patch")):
         raise CourseError(f"--generated makes its own submissions: leave out {ignored}")
     if mutants and not generated:
-        raise CourseError("--mutants says how many to make: add --generated")
+        raise CourseError("--mutants is the number of mutants to grade: add --generated")
     if resume and json_file is None:
         raise CourseError("--resume continues with the file of --json: add --json FILE")
     if show and generated:
@@ -125,12 +124,12 @@ def audit(
                 ]
             found, is_as_expected = len(runs), not (left or any(run.surprises() for run in runs))
     except KeyboardInterrupt:
-        go_on = (
+        advice = (
             f"{json_file} has the finished gradings: add --resume to continue."
             if json_file
-            else "Nothing is kept."
+            else "No grading is saved."
         )
-        raise ended(console, f"Interrupted. {go_on}", COULD_NOT) from None
+        raise error_exit(console, f"Interrupted. {advice}", COULD_NOT) from None
     if not found:
         raise CourseError(f"no {'mutant' if generated else 'submission'} matches {only!r}")
     for line in left:
@@ -148,7 +147,7 @@ def _audit(
     repeat: int,
     seed: int,
 ) -> list[AuditedRun]:
-    """Grade the submissions of an exercise that the record does not have, and print the kill matrix of all."""
+    """Grade an exercise's submissions that are not in the record, and print the kill matrix of all its submissions."""
 
     def report(run: AuditedRun, is_earlier: bool) -> None:
         print_progress(console, run, earlier=is_earlier)
@@ -171,7 +170,7 @@ def _given(context: typer.Context, *options: str) -> str:
 
 
 def _found(exercise: str | None, name: str) -> KnownSubmission:
-    """Return the submission of this name; `name` may begin with the exercise's."""
+    """Return the submission of this name; `name` may begin with the exercise's name and a slash."""
     first, _, rest = name.partition("/")
     if exercise is None and first in exercise_names():
         return known_submission(first, rest)
@@ -180,13 +179,13 @@ def _found(exercise: str | None, name: str) -> KnownSubmission:
     )
     if len(having) != 1:
         raise HeaderError(
-            f"{name} is a submission of {', '.join(having) or 'no exercise'}; name one: EXERCISE {name}"
+            f"{name} is a submission of {', '.join(having) or 'no exercise'}; give one exercise, too"
         )
     return known_submission(having[0], name)
 
 
 def _show(known: KnownSubmission) -> None:
-    """Print the program; if there are several files, each below its name."""
+    """Print the program; print several files each with its name above it."""
     sources = known.read().sources
     for name, text in sources.items():
         if len(sources) > 1:
@@ -195,21 +194,23 @@ def _show(known: KnownSubmission) -> None:
 
 
 def _show_mutant(exercise: str | None, name: str) -> None:
-    """Print what is wrong with a mutant, and its diff; raises `HeaderError`."""
+    """Print a mutant's sentence and diff; raises `HeaderError` if there is no such mutant."""
     if exercise is None:
-        raise HeaderError(f"name the exercise of the mutant: EXERCISE --generated --show {name}")
+        raise HeaderError(
+            f"give the mutant's exercise, too: ./course audit EXERCISE --generated --show {name}"
+        )
     mutant = mutant_named(exercise, name)
     print(mutant.sentence, *mutant.diff(), sep="\n")
 
 
 def _to_patch(known: KnownSubmission) -> str:
-    """Replace a program by its patch, unless too little is shared; return what was done, as a sentence."""
+    """Replace a program by its patch, unless too many lines differ; return a sentence that says what was done."""
     program = known.path
     if program.suffix != ".py":
-        return f"{program} is no program; nothing was changed"
+        return f"{program} is not a program; nothing was changed"
     patch = as_patch(program, sorted((program.parents[1] / "correct").glob("*.py")))
     if patch is None:
-        return f"{program.name} shares too little with any correct one; it stays whole"
+        return f"{program.name} differs too much from every correct program; it was not replaced"
     program.with_suffix(SUFFIX).write_text(patch, encoding="utf-8")
     program.unlink()
     return f"{program.with_suffix(SUFFIX)}: {len(patch.splitlines())} lines"

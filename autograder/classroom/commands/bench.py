@@ -1,4 +1,4 @@
-"""`course bench`: times and processor times on this machine."""
+"""`course bench`: measures times and processor times on this machine."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import typer
 from rich.console import Console
 
 from autograder.engine.exercise import exercise_names, load_exercise
-from course_cli.ending import UNUSABLE, ended
+from course_cli.ending import UNUSABLE, error_exit
 from course_cli.options import JobsOption
 from ros_runtime.project import PROJECT
 
@@ -24,7 +24,7 @@ def bench(
     submission: Annotated[
         list[str] | None,
         typer.Option(
-            help="measure only the cost of grading this exercise's reference (can be repeated, or 'all')"
+            help="measure only the cost of grading this exercise's reference solution (can be repeated, or 'all')"
         ),
     ] = None,
     against: Annotated[
@@ -39,7 +39,7 @@ def bench(
         typer.Option(min=1, help="number of walks at each scale, arenas and gradings; the best run counts"),
     ] = 5,
     scale: Annotated[
-        list[float] | None, typer.Option(help="clock scale of the fairness rows (can be repeated)")
+        list[float] | None, typer.Option(help="clock scale in the table's rows on fairness (can be repeated)")
     ] = None,
     jobs: JobsOption = 2,
     robot: Annotated[bool, typer.Option(help="also run the robot's quick trials")] = True,
@@ -62,9 +62,9 @@ def bench(
 
     console = Console()
     if against and not (arena or submission):
-        raise ended(console, "--against goes with --arena or --submission", UNUSABLE)
+        raise error_exit(console, "--against needs --arena or --submission", UNUSABLE)
     if json_file and not (arena or submission):
-        raise ended(console, "--json goes with --arena or --submission", UNUSABLE)
+        raise error_exit(console, "--json needs --arena or --submission", UNUSABLE)
     if not (arena or submission or checks_of or trial):
         bench_overview(console, runs=runs, scales=scale or [], jobs=jobs, with_robot=robot)
         return
@@ -85,11 +85,11 @@ def bench(
         elif trial:
             bench_robot(console, None if ALL in trial else trial, quick=quick, jobs=jobs)
     except ValueError as error:
-        raise ended(console, error, UNUSABLE) from error
+        raise error_exit(console, error, UNUSABLE) from error
 
 
 def _exercises(names: list[str]) -> list[str]:
-    """The exercises that the options name, each of which exists."""
+    """Return the exercises that the options name; raises `UnknownExercise` if one does not exist."""
     chosen = exercise_names() if ALL in names else names
     for name in chosen:
         load_exercise(name, hidden=False)

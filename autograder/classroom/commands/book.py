@@ -1,4 +1,4 @@
-"""`course book`: chapters, exercises and docs as one static site."""
+"""`course book`: makes one static site of chapters, exercises and docs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from rich.console import Console
 from autograder.classroom.book.chapter_run import execute as execute_chapter
 from autograder.classroom.book.kept_runs import KeptRuns
 from autograder.classroom.book.site import make_site
-from course_cli.ending import COULD_NOT, ended
+from course_cli.ending import COULD_NOT, error_exit
 from ros_runtime.project import PROJECT
 
 WORK = PROJECT / "build" / "book"
@@ -24,36 +24,34 @@ def book(
     output: Annotated[Path, typer.Option(help="folder of the site")] = WORK / "site",
     execute: Annotated[
         bool,
-        typer.Option(
-            "--execute/--no-execute", help="run the chapters that have changed, each with a robot of its own"
-        ),
+        typer.Option("--execute/--no-execute", help="run the changed chapters, each with its own robot"),
     ] = True,
 ) -> None:
     """Make the chapters with their outputs, the exercises and the docs into one static site.
 
-    A chapter takes minutes to run; its outputs are kept until it or the code it runs changes. The site needs no
-    server and no network: open its index.html.
+    A chapter takes minutes to run. Its outputs are kept until the chapter or the code that it runs changes. The site
+    needs no server and no network: open its index.html.
     """
     console = Console(highlight=False)
     try:
         first_page = make_site(output, WORK, _runs(console) if execute else {})
     except KeyboardInterrupt:
-        raise ended(
+        raise error_exit(
             console,
-            "Interrupted. Finished chapters are kept: type the same command again to continue.",
+            "Interrupted. The outputs of finished chapters are kept: type the same command again to continue.",
             COULD_NOT,
         ) from None
     console.print(f"The book: {first_page}", markup=False, soft_wrap=True)
 
 
 def _runs(console: Console) -> dict[str, NotebookNode | None]:
-    """The executed chapters, run now or taken from the cache."""
+    """Return the executed chapters, run now or read from the cache."""
     kept = KeptRuns(WORK / "runs", PROJECT)
     chapters = sorted((PROJECT / "chapters").glob("*.ipynb"))
     for number, chapter in enumerate(chapters, start=1):
         title = f"{number}/{len(chapters)} {chapter.stem}"
         if kept.of(chapter):
-            console.print(f"{title}: unchanged, outputs of an earlier run", markup=False)
+            console.print(f"{title}: unchanged, has the outputs of an earlier run", markup=False)
         else:
             seconds = _run(chapter, title, kept, console)
             console.print(f"{title}: ran in {seconds:.0f} s", markup=False)

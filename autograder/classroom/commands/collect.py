@@ -1,4 +1,4 @@
-"""`course collect`: put a platform's download into the folders that `course grade` reads."""
+"""`course collect`: copies submissions from a platform's download to the folders that `course grade` reads."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from autograder.classroom.collect.download import UnusableDownload, open_downloa
 from autograder.classroom.collect.handed_in import Assignment, Reading
 from autograder.classroom.collect.placing import Placed, place
 from autograder.engine.exercise import UnknownExercise, all_names
-from course_cli.ending import COULD_NOT, ended
+from course_cli.ending import COULD_NOT, error_exit
 from course_cli.options import CourseOption
 
-# What reads each platform's downloads, and says what these look like.
+# The reader of each platform's downloads.
 PLATFORMS = {"canvas": canvas, "moodle": moodle, "gradescope": gradescope, "classroom50": classroom50}
 PlatformName = Enum("PlatformName", {name: name for name in PLATFORMS}, type=str)  # type: ignore[misc]
 
@@ -30,7 +30,7 @@ def collect(
     exercise: Annotated[
         str,
         typer.Option(
-            help="the exercise of this download: take a notebook or program of any name for it, and no other exercise"
+            help="the exercise of this download: collect only its files, and accept a notebook or program of any name"
         ),
     ] = "",
     assignment: Annotated[
@@ -41,20 +41,22 @@ def collect(
     ] = "",
     overwrite: Annotated[
         bool,
-        typer.Option("--overwrite", help="replace work that is there already, such as an earlier hand-in"),
+        typer.Option(
+            "--overwrite", help="replace submissions that are already in --out, such as earlier hand-ins"
+        ),
     ] = False,
     course: CourseOption = None,
 ) -> None:
-    """Put a platform's download into the folders that `course grade` reads."""
+    """Copy submissions from a platform's download to the folders that `course grade` reads."""
     console = Console(highlight=False)
     try:
         _require_usable(exercise, assignment)
-        told = Assignment(exercise, assignment)
+        wanted = Assignment(exercise, assignment)
         with open_download(download) as opened:
             source = PLATFORMS[platform.value]
-            reading = source.read(opened, told)
+            reading = source.read(opened, wanted)
             reading.refused += opened.refused
-            choice = choose(reading.files, told)
+            choice = choose(reading.files, wanted)
             if not choice.works and not reading.refused:
                 aside = [*reading.unknown, *choice.left_aside]
                 found = f"found {aside[0]}" if aside else "it is empty"
@@ -64,17 +66,17 @@ def collect(
                 )
             placed = place(choice, out, overwrite=overwrite)
     except OSError as error:
-        raise ended(console, f"{out} cannot be written: {error}", COULD_NOT) from error
+        raise error_exit(console, f"{out} cannot be written: {error}", COULD_NOT) from error
     for line in [*reading.unknown, *choice.left_aside]:
         console.print(f"left aside: {line}", style="yellow", markup=False)
     if without := {one.student for one in reading.files} - {student for student, _ in choice.works}:
         console.print(
-            f"nothing to grade from: {', '.join(sorted(without))}"
-            + ("" if exercise else "; --exercise NAME takes a file of any name"),
+            f"no submission from: {', '.join(sorted(without))}"
+            + ("" if exercise else "; --exercise NAME accepts a file of any name"),
             style="yellow",
             markup=False,
         )
-    _tell(console, reading, placed, out)
+    _print_summary(console, reading, placed, out)
     raise typer.Exit(COULD_NOT if reading.refused or placed.refused else 0)
 
 
@@ -85,18 +87,18 @@ def _require_usable(exercise: str, assignment: str) -> None:
         raise UnknownExercise("--assignment SLUG is the platform's name for an exercise: add --exercise NAME")
 
 
-def _tell(console: Console, reading: Reading, placed: Placed, out: Path) -> None:
+def _print_summary(console: Console, reading: Reading, placed: Placed, out: Path) -> None:
     for line in [*reading.refused, *placed.refused]:
         console.print(f"refused: {line}", style="red", markup=False)
     late = sorted({one.student for one in reading.files if one.late})
     if late:
-        console.print(f"late, as the platform says: {', '.join(late)}", markup=False)
+        console.print(f"late, according to the platform: {', '.join(late)}", markup=False)
     students = {student for student, _ in [*placed.written, *placed.unchanged]}
-    unchanged = f", {len(placed.unchanged)} were there already" if placed.unchanged else ""
+    unchanged = f", {len(placed.unchanged)} unchanged" if placed.unchanged else ""
     console.print(
         f"{len(placed.written)} submissions written to {out}{unchanged}; {len(students)} students in all",
         markup=False,
         soft_wrap=True,
     )
     if placed.written:
-        console.print(f"to grade them: ./course grade {out}", style="dim", markup=False)
+        console.print(f"grade them: ./course grade {out}", style="dim", markup=False)

@@ -1,4 +1,4 @@
-"""`course demo`: the toolkit in one minute, also on a machine without a screen."""
+"""`course demo`: shows the toolkit in one minute, also on a machine without a screen."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ FAULTY = {"ignores cancel": "faulty/ignores_cancel", "crashes": "faulty/crashes_
 
 
 class DemoFailed(CourseError):
-    """A step of the demo did not do what it should show."""
+    """A step of the demo did not have the expected result."""
 
     exit_status = COULD_NOT
 
@@ -49,7 +49,7 @@ class DemoFailed(CourseError):
 
 
 class DemoNotGraded(DemoFailed):
-    """The machine had too much to do."""
+    """A submission could not be graded, because the machine was too busy."""
 
     exit_status = NOT_GRADED
 
@@ -60,11 +60,11 @@ def demo(
     ] = None,
     jobs: JobsOption = 2,
 ) -> None:
-    """See it all work: a walk, a cancel, three graded submissions."""
+    """Show the whole toolkit at work: a walk, a cancel, three graded submissions."""
     if out is None:
         out = PROJECT / "demo" if os.access(PROJECT, os.W_OK) else Path("demo")
     out.mkdir(parents=True, exist_ok=True)
-    # keep the present sys.stdout, which is replaced below to hide the lab's output
+    # The console keeps the real sys.stdout, which is replaced below to hide the lab's output.
     console = Console(file=sys.stdout, highlight=False)
     try:
         figures = _walk_and_cancel(console)
@@ -77,8 +77,8 @@ def demo(
     write_page(
         report,
         title="A humanoid that balances, a goal that is cancelled, three servers that are graded",
-        introduction="A reference server walked the robot 0.8 m and was cancelled in the middle of a second walk. "
-        "Then three submissions were graded by what they did in arenas of their own.",
+        introduction="A reference server walked the robot 0.8 m, and its second goal was cancelled in mid-stride. Then "
+        "three submissions were graded by what they did, each in arenas of its own.",
         figures=figures,
         sections=sections,
     )
@@ -87,10 +87,10 @@ def demo(
 
 
 def _walk_and_cancel(console: Console) -> list[str]:
-    """Walk the live robot with the reference server and cancel a goal; returns figures for the report."""
+    """Walk the live robot with the reference server, and cancel a goal; return figures for the report."""
     console.print("1  The robot stands up in MuJoCo, and the reference server starts beside it", style="bold")
     submission = read_submission(SOLUTION, EXERCISE)
-    # What the lab prints is meant for notebooks.
+    # The lab's output is meant for notebooks, so it is not shown here.
     quiet = contextlib.redirect_stdout(io.StringIO())
     with TemporaryDirectory() as folder, quiet, contextlib.ExitStack() as end:
         end.callback(lab.stop_everything)
@@ -160,14 +160,14 @@ def _require_expected(grades: Sequence[Grade]) -> None:
         if given.status == "not graded":
             raise DemoNotGraded(
                 f"“{given.student}” could not be graded: {given.why_not_graded}\n"
-                "Next: ./course demo --jobs 1, when the machine has less to do."
+                "Next: ./course demo --jobs 1, when the machine is less busy."
             )
     right, *wrong = grades
     if not right.all_passed:
         raise DemoFailed("the reference solution did not get full marks; look at demo/grades.json")
     for faulty in wrong:
         if faulty.all_passed:
-            raise DemoFailed(f"the submission “{faulty.student}” was not found faulty")
+            raise DemoFailed(f"the faulty submission “{faulty.student}” got full marks")
 
 
 def _comparison(grades: Sequence[Grade]) -> Table:
@@ -183,7 +183,7 @@ def _comparison(grades: Sequence[Grade]) -> Table:
 
 
 def _send_accepted(distance: float) -> lab.Goal:
-    """Send a goal until it is accepted: a server rejects goals until it has received the robot's state."""
+    """Send goals until one is accepted, because the server rejects goals until it has received the robot's state."""
     sent: list[lab.Goal] = []
 
     def is_accepted() -> bool:
@@ -195,7 +195,7 @@ def _send_accepted(distance: float) -> lab.Goal:
 
 
 def _ahead(distance: float) -> WalkTo.Goal:
-    """A goal `distance` m in front of the robot, in odom."""
+    """Return a goal `distance` m ahead of the robot, in odom."""
     here = lab.pose()
     goal = WalkTo.Goal()
     goal.target_pose.header.frame_id = "odom"

@@ -1,4 +1,4 @@
-"""`course export`: write the grades of a batch for another platform."""
+"""`course export`: writes the grades of a batch for another platform."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rich.console import Console
 from autograder.classroom.export.formats import FORMATS, Export, LeftOut, read_batch
 from autograder.classroom.export.formats import export as make_export
 from autograder.classroom.export.published import Options, UnusableBatch
-from course_cli.ending import COULD_NOT, ended
+from course_cli.ending import COULD_NOT, error_exit
 
 Format = Enum("Format", {name: name for name in FORMATS}, type=str)  # type: ignore[misc]
 
@@ -35,21 +35,21 @@ def export(
         typer.Option(
             "--from",
             metavar="FOLDER",
-            help="what `course grade --out` wrote, or the file of `course check --json`",
+            help="the output folder of `course grade`, or the file of `course check --json`",
         ),
     ] = Path("graded"),
     hidden: Annotated[
         Hidden,
         typer.Option(
-            help="hide: students learn the sum of the hidden checks' points; show: all, for you alone"
+            help="hide: students see only the total points of the hidden checks; show: everything, for you alone"
         ),
     ] = Hidden.hide,
     roster: Annotated[
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="the class as the platform knows it: the export of Canvas' gradebook; for Moodle a table with student "
-            "and useremail or useridnumber, or an assignment's worksheet",
+            help="the platform's list of students: for Canvas the gradebook's export, for Moodle a table with student "
+            "and useremail or useridnumber, or an assignment's grading worksheet",
         ),
     ] = None,
     assignment: Annotated[
@@ -57,12 +57,12 @@ def export(
         typer.Option(
             "--assignment",
             metavar="EXERCISE=ID",
-            help="the platform's id of an exercise: Canvas' number or Classroom 50's slug; repeat it",
+            help="the platform's id of an exercise: Canvas' number or Classroom 50's slug (can be repeated)",
         ),
     ] = None,
     classroom: Annotated[str, typer.Option(help="the classroom's name in Classroom 50")] = "",
 ) -> None:
-    """Write the grades of a batch for another platform; "not graded" is never a zero there."""
+    """Write the grades of a batch for another platform; "not graded" never becomes a zero."""
     console = Console(highlight=False)
     grades, graded_at = read_batch(source)
     options = Options(
@@ -71,7 +71,7 @@ def export(
         roster,
         _assignments(assignment or [], {grade.exercise for grade in grades}),
         classroom,
-        # In a job of Classroom 50 these variables identify the submission.
+        # In a job that Classroom 50 runs, these variables identify the submission.
         {name: value for name, value in os.environ.items() if len(grades) == 1 or name == "CLASSROOM"},
     )
     made = make_export(format_.value, grades, options)
@@ -79,14 +79,15 @@ def export(
     try:
         made.write(folder)
     except OSError as error:
-        raise ended(console, f"{folder} cannot be written: {error}", COULD_NOT) from error
-    _tell(console, made, folder)
-    lost = any(left.has_score for left in made.left_out)
-    unsaid = format_.value == "classroom50" and any(left.why == "not graded" for left in made.left_out)
-    raise typer.Exit(COULD_NOT if lost or unsaid else 0)
+        raise error_exit(console, f"{folder} cannot be written: {error}", COULD_NOT) from error
+    _print_summary(console, made, folder)
+    is_score_lost = any(left.has_score for left in made.left_out)
+    # Classroom 50's format cannot express “not graded”, so only the exit status reports it.
+    is_unreported = format_.value == "classroom50" and any(left.why == "not graded" for left in made.left_out)
+    raise typer.Exit(COULD_NOT if is_score_lost or is_unreported else 0)
 
 
-def _tell(console: Console, made: Export, folder: Path) -> None:
+def _print_summary(console: Console, made: Export, folder: Path) -> None:
     """Print what was written, and name each submission without a score in the export."""
     for note in made.notes:
         console.print(note, style="yellow", markup=False)
@@ -97,7 +98,7 @@ def _tell(console: Console, made: Export, folder: Path) -> None:
 
 
 def _sentence(left: LeftOut) -> str:
-    return f"without a score there: {left.student}'s {left.exercise}: {left.why}"
+    return f"exported without a score: {left.student}'s {left.exercise}: {left.why}"
 
 
 def _assignments(given: list[str], exercises: set[str]) -> dict[str, str]:

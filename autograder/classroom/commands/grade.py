@@ -1,4 +1,4 @@
-"""`course grade`: grade the submissions of a class, up to gradebook and feedback pages."""
+"""`course grade`: grades the submissions of a class, and writes the gradebook and the feedback pages."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from autograder.classroom.batch.request import BatchRequest, UnusableRequest
 from autograder.classroom.batch.shards import Shard
 from autograder.classroom.class_grading.once import grade_once
 from autograder.classroom.class_grading.watching import watch_and_grade
-from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.ending import COULD_NOT, UNUSABLE, error_exit
 from course_cli.options import CourseOption, JobsOption
 
 
@@ -42,7 +42,7 @@ def grade(
     seed_per_student: Annotated[
         bool,
         typer.Option(
-            "--seed-per-student", help="other inputs for each student, made of the seed and the name"
+            "--seed-per-student", help="draw different inputs for each student, from the seed and the name"
         ),
     ] = False,
     json_file: Annotated[
@@ -57,20 +57,20 @@ def grade(
     shard: Annotated[
         str | None,
         typer.Option(
-            metavar="K/N", help="grade part K of N, without a gradebook; `course merge` joins the parts"
+            metavar="K/N", help="grade part K of N, without a gradebook; `course merge` merges the parts"
         ),
     ] = None,
     student: Annotated[
         list[str] | None,
         typer.Option(
             "--student",
-            help="grade only this student's submissions; repeat it for several. Others keep their grades",
+            help="grade only this student's submissions (can be repeated); other students keep their grades",
         ),
     ] = None,
     exercise: Annotated[
         list[str] | None,
         typer.Option(
-            "--exercise", help="grade only this exercise; repeat it for several. Others keep their grades"
+            "--exercise", help="grade only this exercise (can be repeated); other exercises keep their grades"
         ),
     ] = None,
     record: Annotated[
@@ -99,8 +99,8 @@ def grade(
             watch=watch is not None,
             record=record,
         )
-    except ValueError as error:  # of a shard, or of options that do not go together
-        raise ended(console, error, UNUSABLE) from error
+    except ValueError as error:  # a malformed shard, or options that exclude each other
+        raise error_exit(console, error, UNUSABLE) from error
     try:
         status = watch_and_grade(console, request) if request.watch else grade_once(console, request)
     except KeyboardInterrupt:
@@ -110,7 +110,7 @@ def grade(
 
 
 def _one_folder(submitted: Path | None, watched: Path | None) -> Path:
-    """The folder to grade, which is given once."""
+    """Return the folder to grade; raises `UnusableRequest` unless exactly one is given."""
     folder = watched or submitted
     if folder is None or (watched and submitted):
         raise UnusableRequest(

@@ -1,4 +1,4 @@
-"""`course gradescope`: what run_autograder calls in Gradescope's container."""
+"""`course gradescope`: grades an upload; run_autograder calls this command in Gradescope's container."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import typer
 from rich.console import Console
 
 from autograder.classroom.on_gradescope.container import CannotGrade, Container, isolation_here
-from course_cli.ending import COULD_NOT, ended
+from course_cli.ending import COULD_NOT, error_exit
 from ros_runtime.project import PROJECT
 
 
@@ -19,10 +19,10 @@ def gradescope(
         "/autograder"
     ),
     exercise: Annotated[
-        str, typer.Option(help="the assignment's exercise (default: the one whose file was uploaded)")
+        str, typer.Option(help="the assignment's exercise (default: the exercise whose file was uploaded)")
     ] = "",
 ) -> None:
-    """Grade the upload of a Gradescope container, with the visible checks, and write results.json.
+    """Grade the upload in a Gradescope container with the visible checks, and write results.json.
 
     If the container cannot grade, results.json has no score, and the exit status is 1.
     """
@@ -30,16 +30,16 @@ def gradescope(
     from autograder.classroom.on_gradescope.grading import WITHOUT_SCORE, grade_upload
 
     container = Container(root)
-    container.forget_results()
+    container.remove_results()
     try:
-        container.close_to_others(PROJECT / "checks")
+        container.restrict_to_root(PROJECT / "checks")
         isolation = isolation_here()
         console.print(f"isolation: {isolation.label} ({isolation.reason})", markup=False)
         results = grade_upload(container, exercise, isolation)
     except CannotGrade as error:
         container.write(WITHOUT_SCORE)
-        raise ended(console, f"not graded: {error}", COULD_NOT) from error
-    except Exception as error:  # whatever it is, the student is not the reason
+        raise error_exit(console, f"not graded: {error}", COULD_NOT) from error
+    except Exception as error:  # any other error is the grader's fault, not the student's
         container.write(WITHOUT_SCORE)
         traceback.print_exc()
         raise typer.Exit(COULD_NOT) from error

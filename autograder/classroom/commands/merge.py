@@ -1,4 +1,4 @@
-"""`course merge`: join the parts of a class that `course grade --shard K/N` graded."""
+"""`course merge`: merges the parts of a class that `course grade --shard K/N` graded."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def merge(
     ),
     course: CourseOption = None,
 ) -> None:
-    """Join the shards of a class into one gradebook."""
+    """Merge the shards of a class into one gradebook."""
     console = Console(highlight=False)
     merged = merge_shards(folders)
     with locked(out):

@@ -1,4 +1,4 @@
-"""`course new`: create the folder of a new exercise."""
+"""`course new`: creates the folder of a new exercise."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ Kind = Enum("Kind", {kind: kind for kind in KINDS}, type=str)  # type: ignore[mi
 
 
 def new(
-    exercise: Annotated[str, typer.Argument(help="its name, such as battery_service")],
-    kind: Annotated[Kind, typer.Option(help="what students write")],
+    exercise: Annotated[str, typer.Argument(help="the exercise's name, such as battery_service")],
+    kind: Annotated[Kind, typer.Option(help="the kind of program that students write")],
     course: Annotated[
         Path | None,
         typer.Option(
             "--course",
             metavar="FOLDER",
-            help="folder of exercises, created if missing (default: that of this course)",
+            help="folder of exercises, created if missing (default: the folder of this course)",
         ),
     ] = None,
 ) -> None:
@@ -38,6 +38,6 @@ def new(
         console.print(f"  {path}", markup=False, soft_wrap=True)
     also = f" --course {course}" if course else ""
     console.print(
-        f"See it work: ./course audit {exercise}{also}. Then change task, scenarios and checks, and audit it again.",
+        f"Try it: ./course audit {exercise}{also}. Then change task, scenarios and checks, and audit it again.",
         soft_wrap=True,
     )

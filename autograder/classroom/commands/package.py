@@ -1,4 +1,4 @@
-"""`course package`: autograders that other platforms run."""
+"""`course package`: writes autograders for other platforms."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from rich.console import Console
 
 from autograder.classroom.archives.gradescope_package import write_package
 from autograder.engine.exercise import essay_names, exercise_names
-from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.ending import COULD_NOT, UNUSABLE, error_exit
 from course_cli.options import CourseOption
 from ros_runtime.project import PROJECT
 
@@ -25,24 +25,24 @@ def platforms() -> None:
 @package.command()
 def gradescope(
     exercise: Annotated[
-        str, typer.Option(help="the assignment's exercise (default: the one whose file is uploaded)")
+        str, typer.Option(help="the assignment's exercise (default: the exercise whose file is uploaded)")
     ] = "",
     out: Annotated[
         Path | None, typer.Option(metavar="FILE.zip", help="the archive (default: gradescope[_EXERCISE].zip)")
     ] = None,
     course: CourseOption = None,
 ) -> None:
-    """Make the zip that Gradescope takes as an autograder: visible checks, made as another user than the grader."""
+    """Make the zip file of a Gradescope autograder: it has visible checks, and runs submissions as another user."""
     console = Console(highlight=False)
     if exercise in essay_names():
-        raise ended(console, f"{exercise} has no checks: a person marks it", UNUSABLE)
+        raise error_exit(console, f"{exercise} has no checks: a person marks it", UNUSABLE)
     if exercise and exercise not in exercise_names():
-        raise ended(
+        raise error_exit(
             console, f"there is no exercise {exercise!r}; there are {', '.join(exercise_names())}", UNUSABLE
         )
     archive = out or Path(f"gradescope_{exercise}.zip" if exercise else "gradescope.zip")
     try:
         count = write_package(PROJECT, archive, exercise)
     except OSError as error:
-        raise ended(console, error, COULD_NOT) from error
+        raise error_exit(console, error, COULD_NOT) from error
     console.print(f"{archive}: {count} files, {archive.stat().st_size / 1e6:.1f} MB", markup=False)

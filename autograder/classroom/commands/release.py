@@ -1,4 +1,4 @@
-"""`course release`: write the students' archive, or only their notebooks."""
+"""`course release`: writes the students' archive, or only their notebooks."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from autograder.classroom.archives.student_bundle import write_bundle
 from autograder.classroom.nbgrader_bridge.course_folder import NbgraderError
 from autograder.classroom.nbgrader_bridge.release import bring_up_to_date, out_of_date
 from autograder.engine.exercise import exercises_folder
-from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.ending import COULD_NOT, UNUSABLE, error_exit
 from course_cli.options import CourseOption
 from ros_runtime.course_error import CourseError
 from ros_runtime.project import PROJECT
@@ -55,11 +55,11 @@ def release(
         if check:
             _report_differences(console)
         elif exercises:
-            _renew(console)
+            _update(console)
         else:
             _write(console, out, wanted or [], until)
     except NbgraderError as error:
-        raise ended(console, error, UNUSABLE) from error
+        raise error_exit(console, error, UNUSABLE) from error
 
 
 def _report_differences(console: Console) -> None:
@@ -68,14 +68,14 @@ def _report_differences(console: Console) -> None:
     for path in differing:
         console.print(f"{path.relative_to(solutions.parent)} is out of date", style="red", markup=False)
     if differing:
-        console.print("Run ./course release --exercises and commit what it changes.")
+        console.print("Run ./course release --exercises and commit the changes.")
     raise typer.Exit(COULD_NOT if differing else 0)
 
 
-def _renew(console: Console) -> None:
+def _update(console: Console) -> None:
     solutions = exercises_folder()
     for path in bring_up_to_date(solutions, solutions.parent / "exercises"):
-        console.print(f"{path.relative_to(solutions.parent)} renewed", markup=False)
+        console.print(f"{path.relative_to(solutions.parent)} updated", markup=False)
 
 
 def _write(console: Console, out: Path, wanted: Sequence[str], until: str) -> None:

@@ -14,16 +14,18 @@ import typer
 from ros_runtime.project import PROJECT
 
 TIERS = ("fast", "arena", "robot", "browser")  # folders of tests/
-KEPT = Path(".pytest_cache/v")  # by pytest
-LAST_FAILED = KEPT / "cache/lastfailed"  # pytest's own record
-LOST_POINTS = "course/lost_points"  # pytest's key of a correct submission that lost a point
+PYTEST_CACHE = Path(".pytest_cache/v")  # the values that pytest keeps between runs
+LAST_FAILED = PYTEST_CACHE / "cache/lastfailed"  # the tests that failed in the last run, written by pytest
+LOST_POINTS = "course/lost_points"  # key in pytest's cache: a correct submission that lost a point
 
 
 def test(
     context: typer.Context,
     fast: Annotated[
         bool,
-        typer.Option("--fast", help="Units, without a sandbox, a robot process or a browser: one minute."),
+        typer.Option(
+            "--fast", help="Unit tests, without a sandbox, a robot process or a browser: one minute."
+        ),
     ] = False,
     arena: Annotated[
         bool,
@@ -40,7 +42,7 @@ def test(
         bool,
         typer.Option(
             "--again",
-            help="Run what failed once more, alone: CI's machine is busy with five files at a time.",
+            help="Run the failed tests once more, alone: with five test files in parallel, CI's machine is busy.",
         ),
     ] = False,
     browser: Annotated[
@@ -52,8 +54,8 @@ def test(
     Further arguments go to pytest: `course test tests/fast/setup -x`, `course test --fast -k name`.
     """
     chosen = {tier for tier, wanted in zip(TIERS, (fast, arena, robot, browser), strict=True) if wanted}
-    # Five files at a time: robots and notebooks of the tests wait for the clock more than for the processors. The
-    # order of the files is that of tests/conftest.py.
+    # Five files in parallel, because robots and notebooks in the tests wait most of the time. tests/conftest.py sets
+    # the order of the files.
     parallel = ["-n", "5", "--dist", "loadfile", "--no-loadscope-reorder"]
     arguments = pytest_arguments(chosen, context.args)
     passed = run_pytest([*parallel, *arguments], PROJECT)
@@ -63,25 +65,25 @@ def test(
 
 
 def run_pytest(arguments: Sequence[str], folder: Path) -> bool:
-    """Run pytest in a child, because its plugins and the ROS libraries both hold on to a process's state."""
-    (folder / KEPT / LOST_POINTS).unlink(missing_ok=True)
+    """Run pytest in a child process, because its plugins and the ROS libraries change the state of their process."""
+    (folder / PYTEST_CACHE / LOST_POINTS).unlink(missing_ok=True)
     return subprocess.run([sys.executable, "-m", "pytest", *arguments], cwd=folder).returncode == 0
 
 
 def pass_alone(arguments: Sequence[str], folder: Path) -> bool:
-    """Run the tests that failed last once more, one at a time; return whether all of them pass then.
+    """Run the failed tests of the last run once more, one at a time; return whether all of them pass.
 
-    A correct submission that lost a point remains a failure, because that must not happen even on a busy machine. One
-    that could not be graded has lost no point.
+    A correct submission that lost a point remains a failure, because that must not happen even on a busy machine. A
+    submission that could not be graded has lost no point.
     """
-    record, lost = folder / LAST_FAILED, folder / KEPT / LOST_POINTS
+    record, lost = folder / LAST_FAILED, folder / PYTEST_CACHE / LOST_POINTS
     failed = sorted(json.loads(record.read_text())) if record.exists() else []
     if lost.exists():
         print(f"\na correct submission lost a point: {json.loads(lost.read_text())}", flush=True)
         return False
     if not failed:
         return False
-    print(f"\n{len(failed)} failed beside others and run again, alone:", *failed, sep="\n  ", flush=True)
+    print(f"\n{len(failed)} failed in parallel and run again, alone:", *failed, sep="\n  ", flush=True)
     passed = run_pytest(["--last-failed", "--last-failed-no-failures=none", *arguments], folder)
     if passed:
         print(f"passed alone, and should pass on a busy machine, too: {', '.join(failed)}", flush=True)
@@ -89,7 +91,7 @@ def pass_alone(arguments: Sequence[str], folder: Path) -> bool:
 
 
 def pytest_arguments(tiers: Collection[str], further: Sequence[str]) -> list[str]:
-    """Arguments with which pytest runs these tiers; without any tier, all."""
+    """Return the arguments with which pytest runs these tiers; without any tier, all tests."""
     others = [tier for tier in TIERS if tier not in tiers]
     if not tiers or not others:
         return list(further)

@@ -1,9 +1,10 @@
 """Canvas' gradebook import, one file per exercise, because an empty cell in a common file would count as a grade.
 
 Format: lib/gradebook_exporter.rb and lib/gradebook_importer.rb of https://github.com/instructure/canvas-lms. Headings
-are English in every language; numbers and the separator follow the language, and an account may split the names. The
-roster is what the gradebook's own export writes. Without one the folders' names are SIS login ids, and a column without
-an assignment's id is a new assignment: Canvas says so before it imports.
+are English in every language; the format of numbers and the separator follow the language. An account may split the
+students' names into two columns. The roster is the file that Canvas' gradebook exports. Without a roster the folders'
+names are used as SIS login ids. For a column without an assignment's id, Canvas makes a new assignment, and asks before
+it does so.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from autograder.classroom.export.published import CannotSay, Options, Published, UnusableBatch
+from autograder.classroom.export.published import CannotExpress, Options, Published, UnusableBatch
 from autograder.classroom.export.tables import Table, csv_text, key_cell, read_number, read_table, text_cell
 
 _BEFORE_ASSIGNMENTS = (
@@ -27,7 +28,7 @@ _BEFORE_ASSIGNMENTS = (
 _KEYS = ("SIS Login ID", "SIS User ID", "ID", "Student")
 _POINTS = "Points Possible"
 _ASSIGNMENT = re.compile(r"(?P<title>.+) \((?P<id>\d+)\)")
-# As `course collect` calls a student of an anonymous download.
+# The name that `course collect` gives to a student in an anonymous download.
 _ANONYMOUS = re.compile(r"anon_[A-Za-z0-9]{5}")
 
 
@@ -35,21 +36,21 @@ _ANONYMOUS = re.compile(r"anon_[A-Za-z0-9]{5}")
 class Gradebook:
     """Canvas' roster of the class, and the column of each exercise."""
 
-    students: Table | None  # without the row of the points
-    assignments: dict[str, str]  # heading of the column by exercise
-    points: dict[str, str]  # points of the assignment in Canvas, by exercise, if the roster has its column
+    students: Table | None  # without the row “Points Possible”
+    assignments: dict[str, str]  # heading of the assignment's column, by exercise
+    points: dict[str, str]  # the assignment's points in Canvas, by exercise, for assignments in the roster
 
     def notes(self, options: Options) -> list[str]:
-        """Return sentences on what Canvas will do that may not be intended."""
+        """Return sentences on effects in Canvas that may not be intended."""
         new = [exercise for exercise, title in self.assignments.items() if not _ASSIGNMENT.fullmatch(title)]
         found = self.students.notes(options.roster) if self.students else []
         found += [
-            f"Canvas makes a new assignment {exercise}: --assignment {exercise}=ID names one that is there, where ID "
-            "ends the address of its page"
+            f"Canvas will make a new assignment {exercise}; for an existing one give --assignment {exercise}=ID, with "
+            "the number at the end of the address of its page as ID"
             for exercise in new
         ]
         found += [
-            f"without a roster the points of {title} in Canvas are unknown: make sure that they equal those in the file"
+            f"without a roster the points of {title} in Canvas are unknown: make sure that they equal the file's points"
             for exercise, title in self.assignments.items()
             if exercise not in new and exercise not in self.points
         ]
@@ -63,8 +64,8 @@ class Gradebook:
         """Return the row of a submission.
 
         Raises:
-            CannotSay: Canvas does not know the student.
-            UnusableBatch: in Canvas the assignment has other points.
+            CannotExpress: Canvas does not know the student.
+            UnusableBatch: the assignment's maximum in Canvas is not that of the exercise.
         """
         exercise, points = published.exercise, published.max_score
         worth = self.points.get(exercise)
@@ -72,8 +73,8 @@ class Gradebook:
             worth is not None and read_number(worth) != points
         ):  # 8 of 12 points would become 8 of 100 in Canvas
             raise UnusableBatch(
-                f"in Canvas {self.assignments[exercise]} has {worth or 'no'} points, and {exercise} {points}: set it "
-                "to as many there, and export the gradebook again"
+                f"{self.assignments[exercise]} has {worth or 'no'} points in Canvas, but {exercise} has {points}: set "
+                f"the assignment in Canvas to {points} points, and export Canvas' gradebook again"
             )
         return [*self._person(published.student), published.score]
 
@@ -84,17 +85,17 @@ class Gradebook:
         return csv_text([*heading, text_cell(self.assignments[exercise])], [points, *rows])
 
     def _heading(self) -> list[str]:
-        """The columns before the assignment's, in Canvas' order."""
+        """Return the headings of the columns before the assignment's column, in Canvas' order."""
         if self.students is None:
             return ["Student", "ID", "SIS User ID", "SIS Login ID", "Section"]
         return [name for name in _BEFORE_ASSIGNMENTS if self.students.index(name) is not None]
 
     def _person(self, student: str) -> list[str]:
-        """These columns for a student; raises `CannotSay` if the student is not in Canvas' roster."""
+        """Return a student's cells in these columns; raises `CannotExpress` if the roster lacks the student."""
         if _ANONYMOUS.fullmatch(student):
-            raise CannotSay(
-                "an anonymous download was collected, and Canvas' gradebook takes no anonymous grades: show the names "
-                "there, then collect and grade a new download"
+            raise CannotExpress(
+                "this name is from an anonymous download, and Canvas' gradebook imports no anonymous grades: show the "
+                "names in Canvas, then collect and grade a new download"
             )
         if self.students is None:
             return [text_cell(student), "", "", key_cell(student), ""]
@@ -107,10 +108,10 @@ class Gradebook:
 
 
 def open_class(options: Options, scored: Sequence[Published]) -> Gradebook:
-    """Find each exercise's column.
+    """Read the roster and find each exercise's column.
 
     Raises:
-        UnusableBatch: the roster is not an export of a gradebook, or an id is invalid.
+        UnusableBatch: the roster is not an export of Canvas' gradebook, or an assignment's id is invalid.
     """
     table = _with_whole_names(read_table(options.roster)) if options.roster else None
     titles: dict[str, str] = {}
@@ -119,8 +120,8 @@ def open_class(options: Options, scored: Sequence[Published]) -> Gradebook:
     if table:
         if [table.index(name) for name in ("Student", "ID", "Section")].count(None):
             raise UnusableBatch(
-                f"{options.roster} begins {', '.join(table.heading[:4])}; expected the export of Canvas' gradebook, "
-                "with Student, ID and Section (or LastName and FirstName in place of Student)"
+                f"{options.roster} begins with the columns {', '.join(table.heading[:4])}; expected the export of "
+                "Canvas' gradebook, with Student, ID and Section (or LastName and FirstName in place of Student)"
             )
         found = [match for title in table.heading if (match := _ASSIGNMENT.fullmatch(title.strip()))]
         titles = {match["id"]: match["title"] for match in found}
@@ -139,7 +140,7 @@ def open_class(options: Options, scored: Sequence[Published]) -> Gradebook:
 
 
 def _with_whole_names(table: Table) -> Table:
-    """Return the table with a column Student, "Last, First", where an account exports the two apart."""
+    """Return the table with a column Student, "Last, First", if the account exports LastName and FirstName."""
     last, first = table.index("LastName"), table.index("FirstName")
     if last is None or first is None:
         return table

@@ -1,7 +1,7 @@
-"""Classroom 50's result.json for one submission: whole points, and no file for what has no score.
+"""Classroom 50's result.json for one submission: whole points only, and no file for a submission without a score.
 
-Format: schemas/result-v1.schema.json of https://github.com/foundation50/classroom50. In a job of Classroom 50 its
-variables say which submission this is; outside, the tag says that a person entered the grade.
+Format: schemas/result-v1.schema.json of https://github.com/foundation50/classroom50. In a job that Classroom 50 runs,
+environment variables identify the submission. Outside such a job, the tag says that a person entered the grade.
 """
 
 from __future__ import annotations
@@ -11,12 +11,12 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from autograder.classroom.export.published import (
-    CannotSay,
+    CannotExpress,
     Options,
     number,
     printable,
     publish,
-    words_for_students,
+    text_without_score,
 )
 from autograder.engine.verdict import Grade
 
@@ -70,10 +70,10 @@ def render(grade: Grade, options: Options) -> str:
     """Return the file for a graded submission.
 
     Raises:
-        CannotSay: it has no score, or one with half points.
+        CannotExpress: the submission has no score, or its score has half points.
     """
     if grade.status != "graded":
-        raise CannotSay(words_for_students(grade))
+        raise CannotExpress(text_without_score(grade))
     published = publish(grade, options.hidden)
     tests = [
         Test(
@@ -113,7 +113,7 @@ def _classroom(options: Options) -> str:
 
 def _whole(points: float) -> int:
     if not float(points).is_integer():
-        raise CannotSay(
-            f"{number(points)} points, but Classroom 50 takes only whole points: enter the grade by hand"
+        raise CannotExpress(
+            f"{number(points)} points, but Classroom 50 accepts only whole points: enter the grade by hand"
         )
     return int(points)

@@ -1,4 +1,4 @@
-"""All formats by name, and the export itself: the files it makes, and the submissions it leaves out."""
+"""All export formats by name, and the function that exports grades in one of them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from autograder.atomic_file import write_atomically
 from autograder.classroom.batch.records import GRADES, UNREADABLE
 from autograder.classroom.export import canvas, classroom50, grades_csv, gradescope, junit, moodle
 from autograder.classroom.export.published import (
-    CannotSay,
+    CannotExpress,
     Options,
     Published,
     UnusableBatch,
@@ -31,7 +31,7 @@ FORMATS = ("gradescope", "canvas", "moodle", "classroom50", "junit", "csv")
 
 @dataclass(frozen=True)
 class LeftOut:
-    """A submission that is left out of the export; `has_score`: its grade has a score, which the format cannot hold."""
+    """A submission that is left out of the export; `has_score`: it has a score that the format cannot express."""
 
     student: str
     exercise: str
@@ -43,8 +43,8 @@ class LeftOut:
 class Export:
     """The result of an export: the content of each file by its path in the folder, and the submissions left out.
 
-    `places` are all paths that these grades could have produced; other files of an earlier export there are outdated.
-    `notes` warn of unintended effects on the platform.
+    `places` are the paths of all files that these grades could produce; those not in `files` are outdated. `notes` warn
+    of unintended effects on the platform.
     """
 
     files: Mapping[str, str]
@@ -53,7 +53,7 @@ class Export:
     notes: Sequence[str] = ()
 
     def write(self, out: Path) -> None:
-        """Write each file atomically, and remove outdated files of an earlier export."""
+        """Write each file atomically, and remove the outdated files of an earlier export."""
         for name in self.places:
             if name not in self.files:
                 (out / name).unlink(missing_ok=True)
@@ -83,14 +83,14 @@ def export(name: str, grades: Sequence[Grade], options: Options) -> Export:
 
 
 def _each(writer: Any, grades: Sequence[Grade], options: Options) -> Export:
-    """Make a file for each submission; for one without a score only if the format can express that."""
+    """Make a file for each submission; for a submission without a score only if the format can express that."""
     files: dict[str, str] = {}
     left_out: list[LeftOut] = []
     for grade in grades:
         why = why_no_score(grade)
         try:
             files[_place(writer, grade)] = writer.render(grade, options)
-        except CannotSay as error:
+        except CannotExpress as error:
             why = why or str(error)
         if why:
             left_out.append(LeftOut(grade.student, grade.exercise, why, not why_no_score(grade)))
@@ -115,7 +115,7 @@ def _tables(
         for published in group:
             try:
                 rows.append(class_list.cells(published))
-            except CannotSay as error:
+            except CannotExpress as error:
                 left_out.append(LeftOut(published.student, exercise, str(error), True))
         if rows:
             files[_table_file(exercise)] = class_list.text(exercise, published.max_score, rows)
@@ -130,7 +130,7 @@ def read_batch(source: Path) -> tuple[Sequence[Grade], datetime]:
     """Return the grades in a folder's grades.json, or in the JSON file given, and when they were written.
 
     Raises:
-        UnusableBatch: there are none, or the file is another one.
+        UnusableBatch: the file is missing, has no grades, or holds something else.
     """
     path = source / GRADES if source.is_dir() or source.suffix != ".json" else source
     try:
@@ -139,13 +139,13 @@ def read_batch(source: Path) -> tuple[Sequence[Grade], datetime]:
         written = datetime.fromtimestamp(path.stat().st_mtime, timezone.utc)
     except FileNotFoundError as error:
         raise UnusableBatch(
-            f"there is no {path}; grade first (./course grade SUBMITTED --out {path.parent}), or name the folder: "
-            "--from FOLDER"
+            f"there is no {path}; grade first (./course grade SUBMITTED --out {path.parent}), or give the folder of "
+            "the grades: --from FOLDER"
         ) from error
     except UNREADABLE as error:
         raise UnusableBatch(
             f"{path} does not hold the grades of a batch: {type(error).__name__}: {error}"
         ) from error
     if not grades:
-        raise UnusableBatch(f"{path} has no grades; expected those of at least one submission")
+        raise UnusableBatch(f"{path} has no grades; expected the grade of at least one submission")
     return grades, written

@@ -1,6 +1,6 @@
-"""One table of the class: a row for each submission that has a score, and none for the others.
+"""One table of the class, with a row for each submission that has a score.
 
-The names of the columns are those of nbgrader's own export, as far as it has them; `nbgrader export` with
+The columns have the names of nbgrader's own export, if it has the column. `nbgrader export` with
 `autograder.classroom.nbgrader_bridge.class_export.ClassExport` writes the same rows from a gradebook.
 """
 

@@ -1,7 +1,7 @@
 """Gradescope's results.json for one submission.
 
-Format: https://gradescope-autograders.readthedocs.io/en/latest/specs/, "Output Format". A file without a score, and
-without tests that have one, gives the submission no score.
+Format: https://gradescope-autograders.readthedocs.io/en/latest/specs/, "Output Format". If neither the file nor its
+tests have a score, Gradescope gives the submission no score.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from autograder.classroom.export.published import (
     Options,
     printable,
     publish,
+    text_without_score,
     why_no_score,
-    words_for_students,
 )
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.table import verdict_text
@@ -25,7 +25,7 @@ FILE = "results.json"
 
 
 class Test(BaseModel):
-    """One entry of the list of tests. Its text is never read as HTML."""
+    """One entry of the list of tests. Gradescope shows its text as plain text, never as HTML."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -41,7 +41,7 @@ class Test(BaseModel):
 
 
 class Results(BaseModel):
-    """The whole file. What the run printed on stdout is for instructors: students' programs have no part in it."""
+    """The whole file. Only instructors see the grader's stdout, which never contains a student's output."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -59,9 +59,9 @@ class Results(BaseModel):
 
 
 def render(grade: Grade, options: Options) -> str:
-    """Return the file for a grade. Hidden checks keep their titles there, and only instructors see them."""
+    """Return the file for a grade. It has the titles of hidden checks, which Gradescope shows only to instructors."""
     if why_no_score(grade):
-        return Results(output=words_for_students(grade)).text()
+        return Results(output=text_without_score(grade)).text()
     published = publish(grade, options.hidden)
     tests = [_test(check, str(i), "visible") for i, check in enumerate(published.checks, start=1)]
     tests += [_test(check, f"H{i}", "hidden") for i, check in enumerate(published.hidden, start=1)]

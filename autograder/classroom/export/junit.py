@@ -1,7 +1,7 @@
 """JUnit XML for one submission, as CodeGrade, Submitty, GitLab, Artemis and Jenkins read it.
 
-The format has no official specification; this is the common part of Jenkins' junit-10.xsd and the readers above. A
-submission without a score is an <error>, which none of them counts as a failed test.
+The format has no official specification; this is the common part of Jenkins' junit-10.xsd and of what these programs
+read. A submission without a score is an <error>, which none of them counts as a failed test.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from autograder.classroom.export.published import (
     Published,
     printable,
     publish,
+    text_without_score,
     why_no_score,
-    words_for_students,
 )
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.table import verdict_text
@@ -27,7 +27,7 @@ def render(grade: Grade, options: Options) -> str:
     suite = Xml.Element("testsuite", name=grade.exercise)
     if why_no_score(grade):
         case = _case(suite, grade.exercise, grade.exercise)
-        Xml.SubElement(case, "error", message=words_for_students(grade), type=why_no_score(grade))
+        Xml.SubElement(case, "error", message=text_without_score(grade), type=why_no_score(grade))
     else:
         _fill(suite, publish(grade, options.hidden))
     for attribute, tag in (("tests", "testcase"), ("failures", "failure"), ("errors", "error")):

@@ -1,9 +1,9 @@
-"""Moodle's gradebook import, or its grading worksheet where that is the roster; one file an exercise.
+"""Moodle's gradebook import, or its grading worksheet if the roster is one; one file per exercise.
 
 Formats: https://docs.moodle.org, "Grade import" (mapped by useremail or useridnumber), and for the offline grading
 worksheet mod/assign/gradingtable.php and mod/assign/feedback/offline/importgradeslib.php of
-https://github.com/moodle/moodle. The worksheet's headings are in its user's language, and Moodle takes them back in no
-other; the order of the columns is the same in all. Moodle shows feedback as HTML, so ours is escaped.
+https://github.com/moodle/moodle. The worksheet's headings are in the user's language, and Moodle imports them in that
+language only; the order of the columns is the same in all languages. Moodle shows feedback as HTML, so it is escaped.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ from autograder.report.table import verdict_text
 EMAIL, ID_NUMBER = ("useremail", "email address", "email"), ("useridnumber", "id number", "idnumber")
 _PARTICIPANT = re.compile(r"(?P<word>.*\D)(?P<number>\d+)\s*")  # "Participant 123456", in any language
 _TIME = re.compile(r"-|.*\d\d? ?[:.hH] ?\d\d.*", re.DOTALL)  # "-" is a grade that was never changed
-_LONGEST_FEEDBACK = 1000  # characters of one check
+_MAX_FEEDBACK_LENGTH = 1000  # characters of one check
 
 
 @dataclass(frozen=True)
 class Worksheet:
-    """Where the columns of an assignment's worksheet are; the one after `grade` has the most points there are.
+    """The indices of the columns of an assignment's worksheet; the column after `grade` has the maximum grade.
 
-    `feedback` is None where Moodle asks for no feedback comments.
+    `feedback` is None if feedback comments are off in the assignment's settings.
     """
 
     grade: int
@@ -36,7 +36,7 @@ class Worksheet:
 
 @dataclass(frozen=True)
 class ClassList:
-    """The way to identify students: `key` is the column of Moodle's import; a worksheet is returned filled in."""
+    """Identifies students: `key` is the column of Moodle's gradebook import; a worksheet is filled in instead."""
 
     key: str
     roster: Table | None = None
@@ -46,8 +46,8 @@ class ClassList:
         """Return the row of a submission.
 
         Raises:
-            CannotSay: Moodle does not know the student.
-            UnusableBatch: in Moodle the assignment has other points.
+            CannotExpress: Moodle does not know the student.
+            UnusableBatch: the assignment's maximum grade in Moodle is not that of the exercise.
         """
         words = text_cell(feedback(published))
         if self.roster is None:
@@ -60,8 +60,8 @@ class ClassList:
         title, most = (line[self.worksheet.grade + 1] for line in (self.roster.heading, row))
         if read_number(most) != published.max_score:  # 8 of 12 points would become 8 of 100 in Moodle
             raise UnusableBatch(
-                f"the worksheet's {title} is {most} and {published.exercise} has {published.max_score} points: set "
-                "the assignment in Moodle to as many, and download the worksheet again"
+                f"the worksheet's {title} is {most}, but {published.exercise} has {published.max_score} points: set "
+                f"the assignment's maximum in Moodle to {published.max_score}, and download the worksheet again"
             )
         filled: list[str | float] = [text_cell(cell) for cell in row]
         filled[self.worksheet.grade] = published.score
@@ -76,7 +76,7 @@ class ClassList:
         return csv_text([self.key, exercise, f"{exercise} feedback"], rows)
 
     def _row_of(self, student: str) -> Sequence[str]:
-        """A student's row of the roster; raises `CannotSay` if there is none."""
+        """Return a student's row of the roster; raises `CannotExpress` if there is none."""
         assert self.roster
         index = self.roster.index
         if not self.worksheet:
@@ -98,16 +98,16 @@ class ClassList:
         found = self.roster.notes(options.roster) if self.roster else []
         if self.worksheet and self.worksheet.feedback is None:
             found.append(
-                f"{options.roster} has no column for feedback: Feedback comments is off in the assignment's settings"
+                f"{options.roster} has no column for feedback: “Feedback comments” is off in the assignment's settings"
             )
         return found
 
 
 def open_class(options: Options, scored: Sequence[Published]) -> ClassList:
-    """Find out how students are named.
+    """Read the roster, or choose by the folders' names whether e-mail addresses or id numbers identify students.
 
     Raises:
-        UnusableBatch: the roster names nobody in a way that Moodle knows, or the names are of two kinds.
+        UnusableBatch: the roster has no column that Moodle can import, or only some folders' names are addresses.
     """
     if options.roster:
         roster = read_table(options.roster)
@@ -117,21 +117,21 @@ def open_class(options: Options, scored: Sequence[Published]) -> ClassList:
         if (email is None and id_number is None) or _has_participants(roster):
             raise UnusableBatch(
                 f"{options.roster} has the columns {', '.join(roster.heading)}; expected useremail or useridnumber "
-                "(and student, if the folders are called otherwise), or the worksheet of a Moodle assignment that is "
-                "graded by points, with a column for grades and the maximum grade after it"
+                "(and student, if the folders have other names), or the grading worksheet of a Moodle assignment that "
+                "is graded by points, with a column for grades and the maximum grade after it"
             )
         return ClassList("useridnumber" if email is None else "useremail", roster)
     with_address = sum("@" in published.student for published in scored)
     if 0 < with_address < len(scored):
         raise UnusableBatch(
-            "some students' folders are named by an e-mail address and some are not; give a --roster with the columns "
-            "student and useremail"
+            "only some students' folders have an e-mail address as name; give a --roster with the columns student and "
+            "useremail"
         )
     return ClassList("useremail" if with_address else "useridnumber")
 
 
 def _has_participants(roster: Table) -> bool:
-    """Whether a table begins as a worksheet does: one word and different numbers, and no heading of a map of names."""
+    """Whether the first column is a worksheet's: the same word with a number in every row, under another heading."""
     words = {match["word"] if (match := _PARTICIPANT.fullmatch(cell)) else "" for cell in roster.column(0)}
     return (
         len(words) == 1
@@ -141,7 +141,7 @@ def _has_participants(roster: Table) -> bool:
 
 
 def _worksheet(roster: Table) -> Worksheet | None:
-    """Find the columns of a worksheet by their contents; None if the table is another one, or graded on a scale."""
+    """Find the columns of a worksheet by their contents; None for another table, or a worksheet with a scale."""
     if not _has_participants(roster):
         return None
     grades = [
@@ -166,10 +166,10 @@ def _are_grades(grades: Sequence[str], most: Sequence[str]) -> bool:
 
 
 def feedback(published: Published) -> str:
-    """Return what a student reads beside the points, as HTML: the checks that did not pass, and the hidden sum."""
+    """Return the feedback to a student as HTML: the checks that did not pass, and the points of the hidden checks."""
     lines = [
         f"<b>{_escaped(check.title)}</b> ({check.points:g} of {check.max_points:g} points)<br>"
-        f"{_escaped(verdict_text(check, _LONGEST_FEEDBACK))}"
+        f"{_escaped(verdict_text(check, _MAX_FEEDBACK_LENGTH))}"
         for check in published.checks
         if check.points < check.max_points
     ]

@@ -1,4 +1,4 @@
-"""The part of a grade that may be published: the visible checks, and the sum of the hidden checks' points."""
+"""The part of a grade that may be published: the visible checks, and the total points of the hidden checks."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ HiddenPolicy = Literal["hide", "show"]
 NOT_GRADED = "The grader could not judge this submission. This is not a zero: it will be graded again."
 TO_MARK = "This has not been marked by a person yet."
 
-# What XML, terminals and spreadsheets cannot take: control characters but tab and newline, halves of surrogate pairs.
+# Invalid in XML, terminals or spreadsheets: control characters except tab and newline, and halves of surrogate pairs.
 _UNPRINTABLE = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
 
 
-class CannotSay(Exception):
+class CannotExpress(Exception):
     """A platform's format cannot express this grade; the message says why, and what to do."""
 
 
@@ -34,8 +34,8 @@ class Published:
     """A graded submission in the form to publish.
 
     Attributes:
-        checks: to be shown in full.
-        hidden: to be summed up, or shown only to instructors.
+        checks: the checks to show in full.
+        hidden: the checks of which students see only the total points.
     """
 
     student: str
@@ -47,33 +47,33 @@ class Published:
 
     @property
     def hidden_points(self) -> float:
-        """The points of the hidden checks together."""
+        """The total points of the hidden checks."""
         return number(sum(check.points for check in self.hidden))
 
     @property
     def hidden_max_points(self) -> float:
-        """The maximum of points for all hidden checks."""
+        """The maximum of the total points of the hidden checks."""
         return number(sum(check.max_points for check in self.hidden))
 
     @property
     def hidden_sum(self) -> str:
-        """The sentence that replaces the hidden checks; "" if there are none."""
+        """The line that students see in place of the hidden checks; "" if there are none."""
         if not self.hidden:
             return ""
         return f"hidden checks: {self.hidden_points:g} of {self.hidden_max_points:g} points"
 
 
 def publish(grade: Grade, hidden: HiddenPolicy) -> Published:
-    """Return the publishable form of a graded submission; with "show" no check is treated as hidden."""
+    """Return the form of a graded submission to publish; if `hidden` is "show", no check is treated as hidden."""
     assert grade.score is not None
-    kept_back = [check for check in grade.checks if check.hidden and hidden == "hide"]
+    hidden_checks = [check for check in grade.checks if check.hidden and hidden == "hide"]
     return Published(
         grade.student,
         grade.exercise,
         number(grade.score),
         number(grade.max_score),
-        [check for check in grade.checks if check not in kept_back],
-        kept_back,
+        [check for check in grade.checks if check not in hidden_checks],
+        hidden_checks,
     )
 
 
@@ -82,8 +82,8 @@ def why_no_score(grade: Grade) -> str:
     return {"graded": "", "not graded": "not graded", "to mark": "not marked yet"}[grade.status]
 
 
-def words_for_students(grade: Grade) -> str:
-    """Return the text for students in place of a score; the grader's own reason could name a hidden check."""
+def text_without_score(grade: Grade) -> str:
+    """Return the text that students see in place of a score; the grader's reason may name hidden checks."""
     return TO_MARK if grade.status == "to mark" else NOT_GRADED
 
 
@@ -91,7 +91,7 @@ def require_safe_names(grades: Sequence[Grade]) -> None:
     """Require names that are valid file names, and one grade for each student and exercise.
 
     Raises:
-        UnusableBatch: a name cannot be used, or two grades are for the same work.
+        UnusableBatch: a name is not a valid file name, or a student has two grades for an exercise.
     """
     seen: set[tuple[str, str]] = set()
     for grade in grades:
@@ -107,7 +107,7 @@ def require_safe_names(grades: Sequence[Grade]) -> None:
 
 
 def printable(text: str) -> str:
-    """Return the text without characters that some format cannot hold; students' programs may print any."""
+    """Return the text without characters that a format does not allow, because students' programs may print them."""
     return _UNPRINTABLE.sub("\N{REPLACEMENT CHARACTER}", text.replace("\r\n", "\n"))
 
 
@@ -122,11 +122,11 @@ class Options:
 
     Attributes:
         graded_at: when the grades were written, UTC.
-        hidden: whether hidden checks are summed up or shown in full.
+        hidden: "hide": students see only the total points of hidden checks; "show": hidden checks are shown in full.
         roster: a table of the class, exported from the platform.
         assignments: the platform's id of an exercise's assignment, by the exercise's name.
         classroom: the name of the Classroom 50 classroom.
-        environment: the process's variables, for jobs that run on the platform itself.
+        environment: the process's environment variables, for jobs that run on the platform.
     """
 
     graded_at: datetime

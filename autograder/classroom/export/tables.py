@@ -14,12 +14,12 @@ from pathlib import Path
 
 from charset_normalizer import from_bytes
 
-from autograder.classroom.export.published import CannotSay, UnusableBatch, number, printable
+from autograder.classroom.export.published import CannotExpress, UnusableBatch, number, printable
 
-MOST_BYTES = 20_000_000  # of a roster
-# Names the separator; Excel reads it, and some programs write it.
+MAX_ROSTER_BYTES = 20_000_000  # of a roster
+# A first line that names the separator: Excel reads it, and some programs write it.
 _SEPARATOR_LINE = re.compile(r"sep=([,;\t])\r?\n", re.IGNORECASE)
-_WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # first bytes of workbooks, new and old formats
+_WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # first bytes of workbooks, in the new and the old format
 # First characters of a formula; some spreadsheets accept the full-width forms, too.
 _FORMULA = tuple("=+-@＝＋－＠")
 
@@ -38,7 +38,7 @@ class Table:
             return []
         return [
             f"{path} is not UTF-8 and was read as {self.encoding}: if a heading or a name is wrong in the files "
-            "written, save it as “CSV UTF-8” and export again"
+            "written, save the roster as “CSV UTF-8” and export again"
         ]
 
     def column(self, index: int) -> list[str]:
@@ -55,11 +55,12 @@ class Table:
     ) -> Sequence[str]:
         """Return the row in which one of the columns has the student's name.
 
-        `course collect` appends the platform's number to a name. The number is looked up in the column `numbers`; then
-        the rest of the name has to resemble that row's cell in a column of `names`, since any name may end in a number.
+        `course collect` appends the platform's number to a name. This number is looked up in the column `numbers`. The
+        rest of the name must resemble the cell of the same row in a column of `names`, because any name may end in a
+        number.
 
         Raises:
-            CannotSay: no row matches, more than one does, or the number belongs to another name.
+            CannotExpress: no row or more than one row matches, or the number belongs to another name.
         """
         wanted = [(column, student) for column in columns if column is not None]
         name, its_number = _collected(student)
@@ -68,41 +69,45 @@ class Table:
         for column, value in wanted:
             found = [row for row in self.rows if _cell_value(row[column]) == value]
             if len(found) > 1:
-                raise CannotSay(
-                    f"{value} stands in {len(found)} rows of the roster, column {self.heading[column]}"
+                raise CannotExpress(
+                    f"{value} is in {len(found)} rows of the roster, column {self.heading[column]}"
                 )
             called = [found[0][column] for column in names if column is not None] if found else []
-            if called and value != student and not any(_alike(name, one) for one in called):
-                raise CannotSay(f"number {value} is {called[0]}'s in the roster: enter it by hand")
+            if called and value != student and not any(_are_similar(name, one) for one in called):
+                raise CannotExpress(
+                    f"number {value} belongs to {called[0]} in the roster: enter the grade by hand"
+                )
             if found:
                 return found[0]
         looked_in = ", ".join(dict.fromkeys(self.heading[column] for column, _ in wanted))
-        raise CannotSay(f"the roster has no such student (looked in {looked_in})")
+        raise CannotExpress(f"the roster has no such student (searched columns: {looked_in})")
 
 
 def read_table(path: Path) -> Table:
-    """Read a CSV file that a platform gave out.
+    """Read a CSV file that a platform exported.
 
     Raises:
-        UnusableBatch: it is no such file.
+        UnusableBatch: the file is not a CSV file, is empty or too large, or cannot be read.
     """
     try:
-        if path.stat().st_size > MOST_BYTES:
+        if path.stat().st_size > MAX_ROSTER_BYTES:
             raise UnusableBatch(
-                f"{path} has more than {MOST_BYTES // 1_000_000} MB; expected a table of a class"
+                f"{path} has more than {MAX_ROSTER_BYTES // 1_000_000} MB; expected a table of a class"
             )
         content = path.read_bytes()
         if content.startswith(_WORKBOOKS):
             raise UnusableBatch(
-                f"{path} is a workbook of a spreadsheet program: save it there as “CSV UTF-8”"
+                f"{path} is a workbook of a spreadsheet program: open it and save it as “CSV UTF-8”"
             )
         text, encoding = _decoded(content)
     except (OSError, UnicodeDecodeError) as error:
         raise UnusableBatch(f"{path} cannot be read: {error}") from error
-    told = _SEPARATOR_LINE.match(text)
-    text = text[told.end() :] if told else text
+    separator = _SEPARATOR_LINE.match(text)
+    text = text[separator.end() :] if separator else text
     try:
-        delimiter = told[1] if told else max(",;\t", key=lambda one: len(next(_cells(text, one), [])))
+        delimiter = (
+            separator[1] if separator else max(",;\t", key=lambda one: len(next(_cells(text, one), [])))
+        )
         lines = [line for line in _cells(text, delimiter) if any(map(str.strip, line))]
     except csv.Error as error:
         raise UnusableBatch(f"{path} is not a CSV file: {error}") from error
@@ -124,7 +129,7 @@ def _decoded(content: bytes) -> tuple[str, str]:
     """
     if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return content.decode("utf-16"), ""
-    if 0 in content[:2]:  # the same without its mark
+    if 0 in content[:2]:  # UTF-16 without a byte order mark
         return content.decode("utf-16-be" if content[0] == 0 else "utf-16-le"), ""
     try:
         return content.decode("utf-8-sig"), ""
@@ -154,19 +159,19 @@ def key_cell(key: str) -> str:
     """Return the key by which a platform finds a student, unchanged.
 
     Raises:
-        CannotSay: a spreadsheet would read the key as a formula, and a changed key would not match.
+        CannotExpress: a spreadsheet would read the key as a formula, and a changed key would not match.
     """
     if text_cell(key) != key or "\n" in key:
-        raise CannotSay(
-            f"{key!r} would be a formula in a spreadsheet, and is needed as it is: enter it by hand"
+        raise CannotExpress(
+            f"{key!r} would be a formula in a spreadsheet, and must not be changed: enter the grade by hand"
         )
     return key
 
 
 def read_number(cell: str) -> float | None:
-    """Return the number in a cell, written as in any language: 1.000,50 and 1,000.50; None if there is none.
+    """Return the number in a cell, in any language's notation, such as 1.000,50 or 1,000.50; None if there is none.
 
-    As in Canvas' import, the last comma or point stands before the decimals.
+    As in Canvas' import, the last comma or point is the decimal separator.
     """
     digits = re.sub(r"[\s'’]", "", cell).replace("٫", ",")
     if not re.fullmatch(r"\d+([.,]\d*)*", digits):
@@ -176,7 +181,7 @@ def read_number(cell: str) -> float | None:
 
 
 def _cell_value(cell: str) -> str:
-    """The text of a cell, without the apostrophe that makes Excel treat it as text."""
+    """Return the text of a cell, without the apostrophe that makes Excel treat the cell as text."""
     return cell.strip().removeprefix("'")
 
 
@@ -186,7 +191,7 @@ def _collected(student: str) -> tuple[str, str]:
     return (match[1], match[2]) if match else ("", "")
 
 
-def _alike(one: str, other: str) -> bool:
+def _are_similar(one: str, other: str) -> bool:
     """Whether two spellings of a name share most of their letters, in any order."""
     first, second = ("".join(sorted(filter(str.isalnum, name.casefold()))) for name in (one, other))
     return SequenceMatcher(None, first, second).ratio() > 0.6

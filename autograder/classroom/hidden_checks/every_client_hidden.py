@@ -1,4 +1,4 @@
-"""The checks that every client of `walk_to` gets and students do not see; their copy is without this module."""
+"""The hidden checks for every client of `walk_to`; the students' copy of the course does not have this module."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from autograder.authoring.walking.client_scenarios import ON_THE_WAY, walk
 CHECKS = {
     "gives_up_without_an_answer": (
         walk({"accepted": None}),
-        "A goal that is never answered ends it with status 1 after 5 s",
+        "Without a goal response it ends with status 1 after 5 s",
         "03_clients_that_survive#fix-why",
     ),
     "survives_early_feedback": (
         walk({**ON_THE_WAY, "early": [6.43], "after": 1.0}),
-        "Feedback that comes before the goal is accepted disturbs nothing",
+        "Feedback that arrives before the goal response does not disturb it",
         "06_walk_to_a_pose#slow-end-why",
     ),
 }

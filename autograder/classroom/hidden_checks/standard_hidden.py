@@ -1,6 +1,6 @@
-"""Checks that fit every server and that students do not see: one line each in an exercise's hidden checks.
+"""Hidden checks for any server; an exercise adds one to its hidden checks with one line.
 
-The students' copy of the engine is without this module.
+The students' copy of the course does not have this module.
 """
 
 from __future__ import annotations
@@ -24,9 +24,10 @@ def works_in_any_namespace(
     see: str = "01_robot_and_graph#names-why",
     clauses: Sequence[int] = (),
 ) -> Check:
-    """Make the check that the node works in another namespace: `require` tests what `does` describes.
+    """Return the check that the node works in another namespace: `require` tests what `does` describes.
 
-    `clauses` replace those of an obligation in `require`, because this check judges that names are relative.
+    If `clauses` are given, they replace the clauses of an obligation in `require`, because this check tests that names
+    are relative.
     """
     title = f"Started in another namespace, it {does} there"
     if isinstance(require, Obligation):

@@ -1,5 +1,5 @@
-"""nbgrader before and after grading: release notebooks for students, gradebook and feedback from verdicts.
+"""Uses nbgrader before grading, for release notebooks, and after it, for gradebook and feedback from the verdicts.
 
-nbgrader never reads a student's own file and never runs a cell: instead of executing it, `VerdictOutputs` writes the
-verdicts as cell outputs.
+nbgrader never reads a student's own file and never runs a cell: `VerdictOutputs` writes the verdicts as cell outputs
+instead.
 """

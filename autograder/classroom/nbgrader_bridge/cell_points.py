@@ -1,4 +1,4 @@
-"""The preprocessors of nbgrader that write verdicts into a submission, in place of stock nbgrader's execution."""
+"""nbgrader preprocessors that write verdicts into a submission's notebook; stock nbgrader would execute it."""
 
 from __future__ import annotations
 
@@ -20,19 +20,20 @@ from autograder.engine.notebook import written_by
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.table import verdict_text
 
-UNJUDGED = "unjudged_cells"  # resources["nbgrader"] key: grade_ids that have no verdict
-ON_PAPER = "Your marker saw this drawn."  # for the feedback page, from which nbgrader takes every drawing
+UNJUDGED_KEY = "unjudged_cells"  # in resources["nbgrader"]: the grade_ids that have no verdict
+# The student reads this on the feedback page, from which nbgrader removes every drawing.
+DRAWING_REPLACEMENT = "Your marker saw a drawing of this."
 
 
 class NotGradedError(Exception):
-    """There is no grade to enter, and the student is not the cause; nbgrader must record no score."""
+    """There is no grade to enter, through no fault of the student; nbgrader must not record a score."""
 
 
 class VerdictOutputs(NbGraderPreprocessor):
-    """Gives every grade cell one number as its output, the points, and the verdict on stdout.
+    """Writes two outputs into every grade cell: the points as a number, and the verdict as text on stdout.
 
-    nbgrader scores an error or output on stderr as 0, and a cell without a number as full marks. So each cell gets a
-    number; without one this raises `NotGradedError`.
+    nbgrader scores an error or output on stderr as 0, and a cell without a number as full marks. Therefore every cell
+    gets a number, and a submission without a grade raises `NotGradedError`.
     """
 
     records = Unicode(help="folder with one JSON file for each student: a list of grades").tag(config=True)
@@ -42,20 +43,20 @@ class VerdictOutputs(NbGraderPreprocessor):
         names = resources["nbgrader"]
         grade = read_grade(Path(self.records), names["student"], names["assignment"])
         verdicts = verdicts_by_cell(grade)
-        names[UNJUDGED] = []
+        names[UNJUDGED_KEY] = []
         for count, cell in enumerate((cell for cell in nb.cells if cell.cell_type == "code"), start=1):
             if not is_grade(cell) or is_solution(cell):
                 continue
             cell.execution_count = count
             verdict = verdicts.get(cell.metadata.nbgrader.grade_id)
             if verdict is None:
-                names[UNJUDGED].append(cell.metadata.nbgrader.grade_id)
+                names[UNJUDGED_KEY].append(cell.metadata.nbgrader.grade_id)
             cell.outputs = outputs(verdict, float(cell.metadata.nbgrader.points), count)
         return nb, resources
 
 
 def read_grade(records: Path, student: str, exercise: str) -> Grade:
-    """Return the grade that was recorded; raises `NotGradedError` when there is none."""
+    """Return the recorded grade of a submission; raises `NotGradedError` if there is none."""
     path = records / f"{student}.json"
     try:
         grades = [Grade.from_json(record) for record in json.loads(path.read_text())]
@@ -87,7 +88,7 @@ def outputs(verdict: CheckVerdict | None, max_points: float, count: int) -> list
 
 
 def _text(verdict: CheckVerdict | None) -> str:
-    """The text for the student; of a hidden check only whether it passed, so that its inputs stay secret."""
+    """Return the text for the student; for a hidden check, only whether it passed, so that its inputs stay secret."""
     if verdict is None:
         return "Not checked automatically."
     if verdict.hidden:
@@ -96,10 +97,10 @@ def _text(verdict: CheckVerdict | None) -> str:
 
 
 class EssayPictures(NbGraderPreprocessor):
-    """Puts the picture below the cell that writes an essay's first file. Nothing a student wrote is executed."""
+    """Shows an essay's picture below the cell that writes the essay's first file. No student's code is executed."""
 
     def preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
-        """Insert the picture, if the exercise is an essay that has one."""
+        """Insert the picture if the exercise is an essay with a picture."""
         name = resources["nbgrader"]["assignment"]
         if name not in essay_names() or (picture := load_essay(name).picture) is None:
             return nb, resources
@@ -109,18 +110,20 @@ class EssayPictures(NbGraderPreprocessor):
         svg = picture({file: text for _, files in written for file, text in files.items() if file in cells})
         if svg and cells:
             first = next(iter(cells.values()))
-            first.outputs = [new_output("display_data", data={"image/svg+xml": svg, "text/plain": ON_PAPER})]
+            first.outputs = [
+                new_output("display_data", data={"image/svg+xml": svg, "text/plain": DRAWING_REPLACEMENT})
+            ]
         return nb, resources
 
 
 class UnjudgedCells(NbGraderPreprocessor):
-    """Removes the saved scores of checks that were not run: hidden ones where there is no isolation."""
+    """Removes nbgrader's scores of checks that were not run, such as hidden checks without isolation."""
 
     def preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
         """Mark the cells in the gradebook as needing manual grading."""
         names = resources["nbgrader"]
         with Gradebook(names["db_url"]) as gradebook:
-            for cell in names[UNJUDGED]:
+            for cell in names[UNJUDGED_KEY]:
                 grade = gradebook.find_grade(cell, names["notebook"], names["assignment"], names["student"])
                 grade.auto_score = None
                 grade.needs_manual_grade = True

@@ -1,7 +1,7 @@
 """`nbgrader export` with the rows of `course export --format csv`, read from the gradebook.
 
-So they have the points that a person gave or changed in formgrader, and late penalties. nbgrader's own table has a 0
-for work that is missing, not graded or waits for a person's marks; this one leaves it out and names it.
+The rows include the points that a person gave or changed in formgrader, and late penalties. nbgrader's own table has a
+0 for a submission that is missing, not graded or not marked yet. This table leaves the submission out and logs it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class ClassExport(ExportPlugin):
     """The grades of a class, one row per submission with a score."""
 
     def export(self, gradebook: Gradebook) -> None:
-        """Write the file that --to names, or grades.csv here."""
+        """Write the file of nbgrader's option --to, or grades.csv in the current folder."""
         not_graded = _not_graded(gradebook)
         rows: list[Row] = []
         for student, assignment in self._wanted(gradebook):
@@ -77,7 +77,7 @@ def _row(submission: Any, student: str, assignment: str) -> Row:
 
 
 def _not_graded(gradebook: Gradebook) -> set[tuple[str, str]]:
-    """The submissions that the last grading failed to judge; the gradebook may hold an earlier score of them."""
+    """Return the submissions not graded in the last run; the gradebook may hold an earlier score of each."""
     records = Path(gradebook.engine.url.database or "").parent / RECORDS
     found: set[tuple[str, str]] = set()
     for path in records.glob("*.json"):

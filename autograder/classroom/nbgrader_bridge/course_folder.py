@@ -1,4 +1,4 @@
-"""nbgrader's configuration for a course folder, the same for our own calls and for people who open formgrader."""
+"""nbgrader's configuration for a course folder, the same for `course grade` and for a person who opens formgrader."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from autograder.atomic_file import write_atomically
 
 CONFIG_FILE = "nbgrader_config.py"
 RELEASE = "release"  # folder of the release notebooks
-RECORDS = "records"  # the folder with one JSON file a student, which VerdictOutputs reads
+RECORDS = "records"  # folder with one JSON file per student, which VerdictOutputs reads
 
 _BRIDGE = "autograder.classroom.nbgrader_bridge"
 # Stock nbgrader begins with Execute, which runs the student's cells with the grader's rights. Nothing here runs a cell.
@@ -53,7 +53,7 @@ _OPTIONS: dict[str, Any] = {
 
 
 class NbgraderError(Exception):
-    """A call to nbgrader failed. The message is the last line of its log, `log` the whole."""
+    """A call to nbgrader failed; the message is the last error in nbgrader's log, and `log` is the whole log."""
 
     def __init__(self, message: str, log: str) -> None:
         super().__init__(message)
@@ -61,11 +61,11 @@ class NbgraderError(Exception):
 
 
 class StudentCodeWouldRun(Exception):
-    """nbgrader is configured to execute submissions, which is refused."""
+    """nbgrader is configured to execute submissions, so it is not used."""
 
 
 def open_course(folder: Path, *, gradebook: bool = True) -> NbGraderAPI:
-    """Return nbgrader's API for a course folder. It reads no configuration file of the machine or the user.
+    """Return nbgrader's API for a course folder; it ignores the configuration files of the machine and the user.
 
     Without a gradebook it can only generate releases.
 
@@ -75,7 +75,7 @@ def open_course(folder: Path, *, gradebook: bool = True) -> NbGraderAPI:
     options: dict[str, Any] = {
         "CourseDirectory.root": str(root),
         "VerdictOutputs.records": str(root / RECORDS),
-        # The exchange of a multi-user server is not used; an absent one keeps nbgrader from looking for it.
+        # The exchange of a multi-user server is not used; a folder that does not exist turns it off.
         "Exchange.root": str(root / "exchange"),
     }
     if not gradebook:
@@ -97,7 +97,7 @@ def open_course(folder: Path, *, gradebook: bool = True) -> NbGraderAPI:
 def call(action: Callable[..., dict[str, Any]], *names: str) -> None:
     """Call a method of nbgrader's API; raises `NbgraderError` when it reports a failure."""
     with warnings.catch_warnings():
-        # SQLAlchemy warns about how nbgrader links a new submission; the submission is stored all the same.
+        # SQLAlchemy warns about how nbgrader adds a new submission, but the submission is stored.
         warnings.filterwarnings("ignore", "Object of type .* not in session")
         outcome = action(*names, force=True)
     if not outcome["success"]:
@@ -110,9 +110,10 @@ def call(action: Callable[..., dict[str, Any]], *names: str) -> None:
 
 
 def write_config_file(folder: Path) -> None:
-    """Write a configuration with which `nbgrader` and its JupyterLab extension behave like the calls of this package.
+    """Write a configuration file that makes `nbgrader` and its JupyterLab extension behave like this package's calls.
 
-    It holds plain values only: nbgrader ignores a configuration file that raises, and would then execute submissions.
+    The file assigns plain values only: nbgrader ignores a configuration file that raises, and would then execute
+    submissions.
     """
     options = _OPTIONS | {"VerdictOutputs.records": RECORDS}
     lines = [f"c.{name} = {_python(value)}" for name, value in options.items()]
@@ -143,7 +144,7 @@ def _without_saving() -> list[Any]:
 
 
 def _let_nbgrader_find_alembic() -> None:
-    """Put this Python's programs on PATH: nbgrader makes a new gradebook with the program alembic."""
+    """Add the environment's programs to PATH, because nbgrader runs alembic to make a new gradebook."""
     programs = str(Path(sys.executable).parent)
     folders = os.environ.get("PATH", os.defpath).split(os.pathsep)
     if programs not in folders:

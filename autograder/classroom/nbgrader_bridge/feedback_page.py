@@ -1,4 +1,4 @@
-"""nbgrader's feedback page with a list that names each check by its title; stock nbgrader calls each "Test cell"."""
+"""nbgrader's feedback page, whose list shows the title of each check; stock nbgrader shows "Test cell" for each."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _POINTS = re.compile(r"\s*\(\d+ points?\)$")
 
 
 class FeedbackPage(HTMLExporter):
-    """Renders feedback with our template, which extends the one that nbgrader configures."""
+    """Renders feedback with the course's template, which extends nbgrader's template."""
 
     def __init__(self, config: Config, **options: Any) -> None:
         nbgraders = config.HTMLExporter
@@ -25,12 +25,12 @@ class FeedbackPage(HTMLExporter):
         ours = Config()
         ours.FeedbackPage.template_name = TEMPLATE
         ours.FeedbackPage.extra_template_basedirs = [str(TEMPLATES), *folders]
-        # Our template finds nbgrader's there, as feedback/index.html.j2, and its style sheet.
+        # In these folders the course's template finds nbgrader's feedback/index.html.j2 and its style sheet.
         ours.FeedbackPage.extra_template_paths = [*nbgraders.extra_template_paths, *folders]
         super().__init__(config=Config(config, **ours), **options)
 
     def default_filters(self) -> Iterable[tuple[str, Callable[..., Any]]]:
-        """Add the filter that names a cell."""
+        """Add the filter `check_title` for the template."""
         yield from super().default_filters()
         yield ("check_title", check_title)
 

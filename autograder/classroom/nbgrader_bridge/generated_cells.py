@@ -1,8 +1,8 @@
 """The cells of a source notebook that are generated: one for each check, or for each criterion of an essay.
 
-The cell of a visible check has the check's id as its name. That of a hidden one is only numbered, because students see
-it. The cells of an essay are a table at the beginning, for students, and at the end one cell for each criterion, into
-which a person enters points in formgrader.
+The cell of a visible check has the check's id as its name. The cell of a hidden check only has a number, because
+students see the cell's name. An essay has a cell with a table of the rubric at the beginning, for students. At the end
+it has one cell for each criterion, into which a person enters points in formgrader.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ above covers it."""
 MARKS = """## The marks
 
 One cell for each criterion of the rubric. A person fills them in, from what you wrote above."""
-HIDDEN = "hidden_"  # how the names of hidden checks' cells begin
+HIDDEN = "hidden_"  # the beginning of the names of hidden checks' cells
 HIDDEN_HELP = "Not passed. Read the task again sentence by sentence: every sentence of it is checked."
 
 
 def hidden_help(promise: str) -> str:
-    """Return what a student reads about a hidden check that did not pass; `promise`: the clause that it judges."""
+    """Return the student's text for a hidden check that did not pass; `promise`: the clause that the check judges."""
     return f"Not passed. It checks {promise}" if promise else HIDDEN_HELP
 
 
@@ -45,7 +45,7 @@ def cell_names(checks: Sequence[Check] | Sequence[CheckVerdict]) -> dict[str, st
 
 
 def with_generated_cells(notebook: NotebookNode, exercise: str) -> NotebookNode:
-    """Return an exercise's notebook with the cells that its checks or its rubric generate, as they are now.
+    """Return an exercise's notebook with up-to-date cells for its checks or its rubric.
 
     Raises:
         UnusableExercise: the notebook of an essay has no cell `rubric`.
@@ -62,7 +62,7 @@ def check_cells(exercise: Exercise) -> list[NotebookNode]:
 
 
 def with_criterion_cells(notebook: NotebookNode, essay: Essay) -> NotebookNode:
-    """Return the notebook with the rubric in the cell `rubric`, and its last section replaced by the criteria's cells.
+    """Return the notebook with the rubric in the cell `rubric`, and with one cell per criterion as its last section.
 
     Raises:
         UnusableExercise: there is no cell `rubric`.
@@ -77,14 +77,14 @@ def with_criterion_cells(notebook: NotebookNode, essay: Essay) -> NotebookNode:
 
 
 def _with_last_section(notebook: NotebookNode, heading: str, section: Sequence[NotebookNode]) -> NotebookNode:
-    """Return the notebook with these cells as its last section, in place of those that were generated before."""
+    """Return the notebook with these cells as its last section, in place of the section generated earlier."""
     before = list(takewhile(lambda cell: cell.id != HEADING_ID, notebook.cells))
     begin = new_markdown_cell(heading, id=HEADING_ID, metadata=cell_metadata(HEADING_ID))
     return NotebookNode(notebook | {"cells": [*before, begin, *section]})
 
 
 def cell_metadata(name: str, *, points: int | None = None, solution: bool = False) -> dict[str, Any]:
-    """Return nbgrader's metadata of a cell: locked, with or without points, or the place of a solution."""
+    """Return nbgrader's metadata for a cell: a locked cell with or without points, or a solution cell."""
     nbgrader: dict[str, Any] = {
         "grade": points is not None,
         "grade_id": name,
@@ -109,7 +109,7 @@ def _check_cell(check: Check, name: str) -> NotebookNode:
 
 
 def _criterion_cell(criterion: Criterion) -> NotebookNode:
-    """A manually graded task of nbgrader: formgrader asks for its points, whatever the cell contains."""
+    """Return a cell that nbgrader calls a manually graded task: a person enters its points in formgrader."""
     levels = "\n".join(f"- {level}" for level in _levels(criterion))
     source = f"### {criterion.title} ({criterion.points} points)\n\n{levels}"
     metadata = cell_metadata(criterion.id)
@@ -131,5 +131,5 @@ def _rubric_cell(essay: Essay) -> NotebookNode:
 
 
 def _levels(criterion: Criterion) -> list[str]:
-    """The levels of a criterion with their points, from the most to the fewest."""
+    """Return the levels of a criterion with their points, in descending order of points."""
     return [f"**{points}**: {words}" for points, words in sorted(criterion.levels.items(), reverse=True)]

@@ -1,4 +1,4 @@
-"""Enters grades into nbgrader's gradebook and generates feedback pages, one at a time."""
+"""Enters grades into nbgrader's gradebook, and generates the feedback pages."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ TIMESTAMP, SECRET = "timestamp.txt", "submission_secret.txt"
 
 @dataclass(frozen=True)
 class Entry:
-    """A grade and the submission it was given for. `sources` is None when the submission could not be read."""
+    """A grade and its submission; `sources` is None if the submission could not be read."""
 
     grade: Grade
     sources: Mapping[str, str] | None
     problem: str = ""
-    timestamp: str = ""  # when it was handed in, as nbgrader writes it
-    secret: str = ""  # from nbgrader's exchange, which returns the feedback by it
+    timestamp: str = ""  # when the submission was handed in, as nbgrader writes it
+    secret: str = ""  # identifies the submission when nbgrader's exchange returns the feedback
 
 
 class CourseGradebook:
@@ -56,8 +56,8 @@ class CourseGradebook:
     def enter(self, entry: Entry) -> Path | None:
         """Record one grade and return its feedback page.
 
-        Returns None if the submission was not graded, which enters no score, or is an essay that is not completely
-        marked. A grade that was entered before is not entered again.
+        Returns None for a submission that was not graded, whose score is not entered, and for an essay that is not
+        completely marked. A grade that was entered before is not entered again.
 
         Raises `NbgraderError` when nbgrader fails.
         """
@@ -88,7 +88,7 @@ class CourseGradebook:
     def _leave_to_a_person(
         self, grade: Grade, submission: dict[str, str], page: Path, is_entered: bool
     ) -> Path | None:
-        """Enter an unmarked essay; its feedback page is made once every criterion is marked by hand."""
+        """Enter an unmarked essay; make its feedback page when a person has marked every criterion."""
         page.unlink(missing_ok=True)
         if not (is_entered and self._autograded(grade).exists()):
             shutil.rmtree(self._autograded(grade), ignore_errors=True)
@@ -116,12 +116,12 @@ class CourseGradebook:
         try:
             call(self._course.generate_assignment, exercise)
         except NbgraderError as error:
-            advice = "a gradebook with submissions keeps the checks it began with; give another --out"
+            advice = "the checks of a gradebook with submissions cannot be changed; give another --out"
             raise NbgraderError(f"{error} ({advice})", error.log) from error
         self._assigned.add(exercise)
 
     def _submission(self, entry: Entry) -> dict[str, str]:
-        """The files that nbgrader reads: the rebuilt notebook, and its timestamp and secret if there are any."""
+        """Return the files that nbgrader reads: the rebuilt notebook, and timestamp and secret if there are any."""
         name = entry.grade.exercise
         release = nbformat.read(self._folder / RELEASE / name / f"{name}.ipynb", as_version=4)
         notebook = rebuild_submission(release, file_names(name), entry.sources, entry.problem)
@@ -147,21 +147,21 @@ class CourseGradebook:
             write_atomically(folder / name, text)
 
     def _submitted(self, grade: Grade) -> Path:
-        """Where nbgrader looks for submissions."""
+        """Return the folder in which nbgrader looks for the submission."""
         return self._folder / "submitted" / grade.student / grade.exercise
 
     def _autograded(self, grade: Grade) -> Path:
-        """The folder in which nbgrader stores the autograded notebook."""
+        """Return the folder in which nbgrader stores the autograded notebook."""
         return self._folder / "autograded" / grade.student / grade.exercise
 
 
 def _is_whole(page: Path) -> bool:
-    """Whether a page is complete: nbgrader writes it in place, and may have been killed."""
+    """Whether a page is complete; it is incomplete if nbgrader was killed while it wrote the page."""
     return page.exists() and page.read_bytes().rstrip().endswith(b"</html>")
 
 
 def record(folder: Path, grade: Grade) -> None:
-    """Write a grade to the student's JSON file; it replaces an earlier one for the same exercise."""
+    """Write a grade to the student's JSON file, in place of an earlier grade for the same exercise."""
     others = [record for record in _records(folder, grade.student) if record["exercise"] != grade.exercise]
     grades = sorted([*others, grade.to_json()], key=lambda record: record["exercise"])
     path = folder / RECORDS / f"{grade.student}.json"
@@ -174,12 +174,12 @@ def _records(folder: Path, student: str) -> list[dict[str, Any]]:
 
 
 def with_marks(gradebook: Gradebook, grade: Grade) -> Grade:
-    """Return the grade of an essay with the points given so far; raises `MissingEntry` when it is not entered."""
+    """Return an essay's grade with the points given so far; raises `MissingEntry` if it is not in the gradebook."""
     return replace(grade, checks=[_marked(gradebook, grade, verdict) for verdict in grade.checks])
 
 
 def ask_again(gradebook: Gradebook, grade: Grade) -> None:
-    """Mark the criteria as needing manual grading again; points for the earlier work stay and have to be confirmed."""
+    """Mark the criteria as needing manual grading again; a person must confirm the points of the earlier submission."""
     for verdict in grade.checks:
         _entry(gradebook, grade, verdict).needs_manual_grade = True
     gradebook.db.commit()
@@ -194,5 +194,5 @@ def _marked(gradebook: Gradebook, grade: Grade, verdict: CheckVerdict) -> CheckV
 
 
 def _entry(gradebook: Gradebook, grade: Grade, verdict: CheckVerdict) -> Any:
-    """Nbgrader's record of one criterion."""
+    """Return nbgrader's record of one criterion."""
     return gradebook.find_grade(verdict.id, grade.exercise, grade.exercise, grade.student)

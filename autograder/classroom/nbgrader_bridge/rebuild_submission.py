@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from nbformat import NotebookNode
 from nbgrader.utils import is_solution
 
-LONGEST_SOURCE = 60_000  # characters shown
+MAX_SOURCE_LENGTH = 60_000  # characters shown
 
 
 class NoSolutionCell(Exception):
@@ -24,7 +24,7 @@ def rebuild_submission(
 ) -> NotebookNode:
     """Return a copy of the release notebook with the sources of the files `names` in its solution cells.
 
-    Without sources the cells quote `problem`, the reason why the submission could not be read.
+    If `sources` is None, the cells quote `problem`, the reason why the submission could not be read.
     """
     notebook = copy.deepcopy(release)
     for name in names:
@@ -48,6 +48,6 @@ def _shown(sources: Mapping[str, str] | None, name: str, problem: str) -> str:
     if name not in sources:
         return "# This file was not handed in."
     source = sources[name]
-    if len(source) > LONGEST_SOURCE:
-        return f"{source[:LONGEST_SOURCE]}\n# … the file goes on; all of it was graded"
+    if len(source) > MAX_SOURCE_LENGTH:
+        return f"{source[:MAX_SOURCE_LENGTH]}\n# … only the beginning is shown; the whole file was graded"
     return source

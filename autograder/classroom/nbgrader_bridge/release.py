@@ -45,7 +45,7 @@ def bring_up_to_date(solutions: Path, exercises: Path) -> list[Path]:
 def generate_release(solutions: Path, exercises: Path) -> None:
     """Write exercises/<exercise>/<exercise>.ipynb for each source notebook; the same input gives the same bytes.
 
-    Only notebooks are copied, because a tried-out source notebook has written its solution beside itself.
+    Only notebooks are copied, because a source notebook that was run has written its solution beside itself.
     """
     with tempfile.TemporaryDirectory() as temporary:
         course = Path(temporary)
@@ -58,7 +58,7 @@ def generate_release(solutions: Path, exercises: Path) -> None:
 
 
 def _wanted(solutions: Path, exercises: Path) -> dict[Path, str | None]:
-    """Return what each notebook should hold; None: it should not be there."""
+    """Return the content that each notebook should have; None if the notebook should not exist."""
     wanted: dict[Path, str | None] = dict.fromkeys(exercises.glob("*/*.ipynb"))
     with tempfile.TemporaryDirectory() as temporary:
         renewed, released = Path(temporary) / "solutions", Path(temporary) / "exercises"
@@ -77,6 +77,6 @@ def _content(path: Path) -> str | None:
 
 
 def copy_notebook(notebook: Path, folder: Path) -> None:
-    """Copy one notebook into a folder, which is made when missing."""
+    """Copy a notebook into a folder, which is created if it is missing."""
     folder.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(notebook, folder / notebook.name)

@@ -12,13 +12,13 @@ from autograder.engine.exercise import UnusableExercise
 
 
 def read_source(path: Path) -> NotebookNode:
-    """Read a notebook in any version of the format; cells without an id of their own get one, always the same.
+    """Read a notebook in any version of the format; a cell without a unique id gets one, the same at every reading.
 
     Raises:
-        UnusableExercise: it is no notebook.
+        UnusableExercise: the file is not a notebook.
     """
     try:
-        with warnings.catch_warnings():  # warnings of nbformat on faults that are repaired here
+        with warnings.catch_warnings():  # nbformat warns about faults that are repaired below
             warnings.simplefilter("ignore")
             as_written = nbformat.reader.reads(path.read_text(encoding="utf-8-sig"))
             has_ids = nbformat.reader.get_version(as_written) >= (4, 5)

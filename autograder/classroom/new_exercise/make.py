@@ -18,19 +18,19 @@ KINDS_FOLDER = Path(__file__).with_name("kinds")
 KINDS = tuple(sorted(folder.name for folder in KINDS_FOLDER.iterdir()))
 _TEMPLATE = ".j2"
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
-# They become the notebook and the correct submission.
+# The notebook is made from both templates, and the correct submission from the solution.
 _SOLUTION, _TASK = f"solution.py{_TEMPLATE}", f"task.md{_TEMPLATE}"
 _MARKS = re.compile(r"^ *### (BEGIN|END) SOLUTION\n", re.MULTILINE)
 
 
 class CannotMake(CourseError):
-    """The exercise cannot be made; the message says why."""
+    """The exercise cannot be created; the message says why."""
 
 
 def make_exercise(name: str, kind: str, course: Path) -> Path:
-    """Write `course`/`name`/, an exercise of a kind (one of KINDS), and return that folder.
+    """Create `course`/`name`/, an exercise of one of KINDS, and return that folder.
 
-    Raises `CannotMake` for an invalid name, or one that exists.
+    Raises `CannotMake` if the name is invalid or the folder exists.
     """
     if not _NAME.fullmatch(name) or keyword.iskeyword(name):
         raise CannotMake(
@@ -38,7 +38,7 @@ def make_exercise(name: str, kind: str, course: Path) -> Path:
         )
     folder = course / name
     if folder.exists():
-        raise CannotMake(f"{folder} is there already; choose another name, or remove it")
+        raise CannotMake(f"{folder} exists already; choose another name, or remove the folder")
     words = {"name": name, "title": name.replace("_", " ").capitalize(), "type_name": _type_name(name)}
     templates = Environment(
         loader=FileSystemLoader(KINDS_FOLDER / kind), undefined=StrictUndefined, keep_trailing_newline=True
@@ -61,7 +61,7 @@ def _type_name(name: str) -> str:
 
 
 def _notebook(words: dict[str, str], task: str, solution: str) -> NotebookNode:
-    """Return the source notebook without grade cells: `release --exercises` generates them from the checks."""
+    """Return the source notebook without grade cells, which `release --exercises` generates from the checks."""
     name = words["name"]
     cells = [
         new_markdown_cell(f"# {words['title']}", id="title"),
@@ -76,7 +76,8 @@ def _notebook(words: dict[str, str], task: str, solution: str) -> NotebookNode:
             metadata=cell_metadata("solution", solution=True),
         ),
         new_markdown_cell(
-            "## Check it\n\nThe checks that you can see, each with what to do next.", id="self-check-intro"
+            "## Check it\n\nRun the visible checks; each failed check says what to do next.",
+            id="self-check-intro",
         ),
         new_code_cell(
             f'from autograder.self_check import self_check\n\nchecked = self_check("{name}")', id="self-check"

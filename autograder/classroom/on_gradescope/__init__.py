@@ -1,1 +1,1 @@
-"""Inside Gradescope's container: what was handed in is graded there, with the visible checks."""
+"""Grades an upload inside Gradescope's container, with the visible checks."""

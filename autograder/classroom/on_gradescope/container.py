@@ -1,7 +1,7 @@
 """Gradescope's container: its folders, and the protection of results.json against students' programs.
 
-Layout: https://gradescope-autograders.readthedocs.io/en/latest/specs/, "File Hierarchy". The grader is root there, and
-what it grades runs as another user: only the grader can write the results, and read checks and uploads.
+Layout: https://gradescope-autograders.readthedocs.io/en/latest/specs/, "File Hierarchy". The grader runs as root, and
+the student's program runs as another user, so only the grader can write the results and read checks and uploads.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from autograder.isolation.availability import Isolation, available_isolation, wi
 
 
 class CannotGrade(Exception):
-    """The container cannot grade, through no fault of the student's; the message says why."""
+    """The container cannot grade, through no fault of the student; the message says why."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Container:
 
     @property
     def submission(self) -> Path:
-        """What the student uploaded."""
+        """The folder with the student's upload."""
         return self.root / "submission"
 
     @property
@@ -36,17 +36,17 @@ class Container:
         """The file that Gradescope reads."""
         return self.root / "results" / FILE
 
-    def forget_results(self) -> None:
+    def remove_results(self) -> None:
         """Remove the results of an earlier run, so that its score is not attributed to this one."""
         self.results.parent.mkdir(parents=True, exist_ok=True)
         self.results.unlink(missing_ok=True)
 
-    def close_to_others(self, *more: Path) -> None:
-        """Make uploads, results, submission metadata and `more` accessible to root only."""
+    def restrict_to_root(self, *more: Path) -> None:
+        """Make uploads, results, submission metadata and the folders `more` accessible to root only."""
         for folder in (self.submission, self.results.parent, *more):
             if folder.is_dir():
                 os.chmod(folder, 0o700)
-        # It has names, addresses, and the results of earlier uploads.
+        # The metadata contains names, addresses, and the results of earlier uploads.
         metadata = self.root / "submission_metadata.json"
         if metadata.is_file():
             os.chmod(metadata, 0o600)
@@ -57,7 +57,7 @@ class Container:
 
 
 def isolation_here() -> Isolation:
-    """Return the best isolation of this container: namespaces, else another user.
+    """Return the best isolation that this container has: namespaces, else another user.
 
     Raises:
         CannotGrade: neither is available, so a student's program could write its own score.

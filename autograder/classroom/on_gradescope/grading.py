@@ -1,4 +1,4 @@
-"""From an upload to results.json: the visible checks of the exercise that it holds."""
+"""Grades an upload with the visible checks of its exercise, and makes results.json."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ def grade_upload(container: Container, exercise: str, isolation: Isolation) -> R
     """Grade the upload.
 
     Args:
-        container: in which it lies.
-        exercise: of the assignment; "" if the upload's file names say which it is.
-        isolation: of the student's program.
+        container: the container with the upload.
+        exercise: the assignment's exercise; "" if the names of the uploaded files decide.
+        isolation: the isolation of the student's program.
     """
     found_works = works_of(container.submission, files_of_exercises())
     works = [work for work in found_works if exercise in ("", work.exercise)]
     if not exercise and len(works) != 1:
         found = f"found {', '.join(work.exercise for work in works)}" if works else "found none"
         return Results(
-            score=0, output=f"Expected the file of one exercise, called as the exercise is; {found}."
+            score=0, output=f"Expected the file of one exercise, with the exercise's name; {found}."
         )
     loaded = load_exercise(exercise or works[0].exercise, hidden=False)
     result = _grade(works[0] if works else None, loaded, isolation)

@@ -1,4 +1,5 @@
-"""The pages of a graded class, made from grades and from drawings of what was judged.
+"""The pages of a graded class, made from the grades and from drawings of the judged runs.
 
-One page is on the class, for its instructor. Each submission has two: one for the student, one for the instructor.
+The class has one page, for the instructor. Each submission has two pages, one for the student and one for the
+instructor.
 """

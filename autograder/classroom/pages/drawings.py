@@ -19,25 +19,27 @@ Sources = Mapping[str, str]
 
 FOLDER = Path("cache/drawings")
 DRAWN = ("failed", "error")
-MOST_RUNS = 3  # drawn of one check
+MAX_DRAWN_RUNS = 3  # of one check
 
-DrawnRuns = Mapping[str, Sequence[str]]  # SVG of the runs that a check was judged on, by the check's id
+DrawnRuns = Mapping[
+    str, Sequence[str]
+]  # SVG drawings of the runs that a check was judged on, by the check's id
 
 
 @dataclass(frozen=True)
 class Drawings:
-    """The drawings in a batch's output. The key is a verdict on a program, so cached grades keep their drawings."""
+    """The drawings in a batch's output folder, keyed by program and verdict, so that cached grades have them, too."""
 
     batch: Path
 
     def keep_all(self, grade: Grade, sources: Sources, drawn: DrawnRuns) -> None:
-        """Keep the drawings of a grade, by the check's id."""
+        """Store the drawings of all checks of a grade; `drawn` has them by the check's id."""
         for verdict in grade.checks:
             if verdict.id in drawn:
                 self.keep(grade.exercise, sources, verdict, drawn[verdict.id])
 
     def of(self, grade: Grade, sources: Sources | None) -> dict[str, list[str]]:
-        """Return the drawings (SVG) of a grade by the check's id, of those checks that have some."""
+        """Return the stored drawings (SVG) of a grade, by the id of each check that has drawings."""
         if sources is None:
             return {}
         paths = {
@@ -48,7 +50,7 @@ class Drawings:
         return {check: svgs for check, path in paths.items() if path.exists() and (svgs := _read(path))}
 
     def keep(self, exercise: str, sources: Sources, verdict: CheckVerdict, drawn: Sequence[str]) -> None:
-        """Keep the drawings (SVG) of one verdict."""
+        """Store the drawings (SVG) of one verdict."""
         write_atomically(self._path(exercise, sources, verdict), json.dumps(drawn))
 
     def _path(self, exercise: str, sources: Sources, verdict: CheckVerdict) -> Path:
@@ -57,13 +59,13 @@ class Drawings:
 
 
 def _read(path: Path) -> list[str]:
-    """Read stored drawings; none if the file is damaged, since a verdict does not depend on them."""
+    """Read stored drawings; [] if the file is damaged, because no grade depends on drawings."""
     try:
         svgs = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):
         return []
-    sound = isinstance(svgs, list) and all(isinstance(svg, str) for svg in svgs)
-    return svgs if sound else []
+    is_valid = isinstance(svgs, list) and all(isinstance(svg, str) for svg in svgs)
+    return svgs if is_valid else []
 
 
 def drawing_into(
@@ -83,13 +85,13 @@ def drawing_into(
 
 
 def draw(transcripts: Sequence[Transcript]) -> list[str]:
-    """Draw runs as SVG: the sequence of messages, and what the robot did if it moved.
+    """Draw runs as SVG: the sequence of messages and, if the robot moved, its motion.
 
     Raises:
-        ValueError: nothing happened in one.
+        ValueError: a run has no events.
     """
     drawn: list[str] = []
-    for transcript in transcripts[:MOST_RUNS]:
+    for transcript in transcripts[:MAX_DRAWN_RUNS]:
         title = transcript.scenario.replace("_", " ")
         drawn += [transcript_svg(transcript, title), *motion_svgs(transcript, title)]
     return drawn

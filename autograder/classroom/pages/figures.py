@@ -1,4 +1,4 @@
-"""Statistics on the grades of a class: scores by exercise, the hardest checks, who needs help. Pure functions."""
+"""Statistics on the grades of a class: scores by exercise, the hardest checks, students who need help."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from autograder.engine.verdict import CheckVerdict, Grade
 
 TENTHS = [f"{10 * tenth}–{10 * tenth + 9}" for tenth in range(10)]
 FULL = "100"
-NEEDS_HELP = 0.6  # share of the points; submissions below it are listed
-MOST_TOPICS = 3  # of one student's submission
+NEEDS_HELP = 0.6  # share of the points; submissions with less are listed
+MAX_TOPICS = 3  # listed for one submission
 
 
 @dataclass(frozen=True)
 class HardCheck:
-    """A check's results in a class: `failed` and `not_run` of `graded` submissions, and the most frequent message."""
+    """A check's results in a class: how many of the `graded` submissions failed it, and the most frequent advice."""
 
     id: str
     title: str
@@ -29,13 +29,13 @@ class HardCheck:
 
     @property
     def share_failed(self) -> float:
-        """0..1 of the submissions on which the check was made."""
+        """The share (0..1) of failures among the submissions on which the check was run."""
         return self.failed / max(1, self.graded - self.not_run)
 
 
 @dataclass(frozen=True)
 class ExerciseFigures:
-    """The grades of one exercise: those with a score, and how many have none yet."""
+    """The grades of one exercise that have a score, and the number of grades without a score."""
 
     exercise: str
     graded: Sequence[Grade]
@@ -45,17 +45,17 @@ class ExerciseFigures:
 
     @property
     def median(self) -> float:
-        """Of the scores, in points."""
+        """The median score, in points."""
         return median(grade.score or 0 for grade in self.graded)
 
     @property
     def max_score(self) -> int:
-        """The points there are."""
+        """The maximum of points in the exercise."""
         return max(grade.max_score for grade in self.graded)
 
     @property
     def bins(self) -> Mapping[str, int]:
-        """How many submissions have how many per cent of the points."""
+        """The number of submissions by score, in per cent of the maximum."""
         counts = Counter(_bin(share(grade)) for grade in self.graded)
         return {label: counts[label] for label in [*TENTHS, FULL]}
 
@@ -70,12 +70,12 @@ class NeedsHelp:
 
     @property
     def share(self) -> float:
-        """0..1 of the points."""
+        """The share (0..1) of the points that the submission has."""
         return share(self.grade)
 
 
 def exercise_figures(grades: Sequence[Grade]) -> list[ExerciseFigures]:
-    """Return the figures of every exercise, in order of the exercises' first appearance."""
+    """Return the figures of every exercise, in the order in which the exercises first appear in `grades`."""
     by_exercise: dict[str, list[Grade]] = {}
     for grade in grades:
         by_exercise.setdefault(grade.exercise, []).append(grade)
@@ -90,13 +90,13 @@ def exercise_figures(grades: Sequence[Grade]) -> list[ExerciseFigures]:
 
 
 def who_needs_help(grades: Sequence[Grade]) -> list[NeedsHelp]:
-    """Return the graded submissions with less than NEEDS_HELP of the points, the fewest first."""
+    """Return the graded submissions with less than NEEDS_HELP of the points, in order of their share of the points."""
     few = [grade for grade in grades if grade.status == "graded" and share(grade) < NEEDS_HELP]
     return [_topics(grade) for grade in sorted(few, key=lambda grade: (share(grade), grade.student))]
 
 
 def cause(grade: Grade) -> str:
-    """Return the reason of a "not graded" in one line; of a traceback the first and the last line."""
+    """Return the reason of a grade "not graded" in one line; for a traceback, its first and last line."""
     lines = [line.strip() for line in grade.reason.splitlines() if line.strip()] or ["no check was judged"]
     return f"{lines[0]} {lines[-1]}" if len(lines) > 1 and lines[0].endswith(":") else lines[0]
 
@@ -111,7 +111,7 @@ def _bin(part: float) -> str:
 
 
 def _hardest(graded: Sequence[Grade]) -> list[HardCheck]:
-    """The checks that somebody failed, the most failed first; then as the exercise orders them."""
+    """Return the checks that failed, in descending order of the share that failed; ties in the exercise's order."""
     verdicts: dict[str, list[CheckVerdict]] = {}
     for grade in graded:
         for verdict in grade.checks:
@@ -121,7 +121,7 @@ def _hardest(graded: Sequence[Grade]) -> list[HardCheck]:
 
 
 def _hard_check(verdicts: Sequence[CheckVerdict]) -> HardCheck:
-    failed = [verdict for verdict in verdicts if lost(verdict)]
+    failed = [verdict for verdict in verdicts if is_failed(verdict)]
     advice = Counter(verdict.help for verdict in failed if verdict.help).most_common(1)
     first = verdicts[0]
     return HardCheck(
@@ -136,12 +136,12 @@ def _hard_check(verdicts: Sequence[CheckVerdict]) -> HardCheck:
 
 
 def _topics(grade: Grade) -> NeedsHelp:
-    """The first failed checks, because later checks of an exercise build upon earlier ones."""
-    failed = [verdict for verdict in grade.checks if lost(verdict)]
-    return NeedsHelp(grade, failed[:MOST_TOPICS], len(failed[MOST_TOPICS:]))
+    """Return the first failed checks to discuss, because later checks of an exercise build upon earlier ones."""
+    failed = [verdict for verdict in grade.checks if is_failed(verdict)]
+    return NeedsHelp(grade, failed[:MAX_TOPICS], len(failed[MAX_TOPICS:]))
 
 
-def lost(verdict: CheckVerdict) -> bool:
+def is_failed(verdict: CheckVerdict) -> bool:
     """Whether a check failed, or a person gave less than half of a criterion's points."""
     return verdict.status == "failed" or (
         verdict.status == "marked" and verdict.points < verdict.max_points / 2

@@ -16,7 +16,7 @@ from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.rendering import drawn, write_html
 
 CLASS_PAGE = "class.html"
-INDEX = "index.html"  # of a student's exercises
+INDEX = "index.html"  # the page that lists a student's exercises
 FOR_STUDENTS, FOR_INSTRUCTOR = "pages", "instructor"
 UP = "../.."  # from a submission's page to the folder of the class page
 
@@ -62,7 +62,7 @@ def write_class_page(
                 bars_svg(
                     its.bins,
                     title=f"Scores of {its.exercise}",
-                    across="points, % of those there are",
+                    across="points, % of the maximum",
                     up="submissions",
                 )
             )
@@ -78,7 +78,7 @@ def write_class_page(
 
 
 def write_student_page(folder: Path, student: str, grades: Sequence[Grade]) -> None:
-    """Write the page from which a student finds those of the exercises; `grades` are all of them."""
+    """Write the page that links to a student's pages of the exercises; `grades` has all the student's grades."""
     write_html(
         folder / FOR_STUDENTS / student / INDEX,
         "student.html",
@@ -90,10 +90,10 @@ def write_student_page(folder: Path, student: str, grades: Sequence[Grade]) -> N
 
 
 def write_submission_pages(folder: Path, grade: Grade, drawings: DrawingsOf) -> None:
-    """Write the student's page, which shows of hidden checks only whether they passed, and the instructor's page.
+    """Write the instructor's page, and the student's page, which only shows whether hidden checks passed.
 
     Raises:
-        ValueError: the student's name or the exercise's cannot be a folder.
+        ValueError: the name of the student or of the exercise is not a valid folder name.
     """
     _write(folder, grade, drawings, for_student=False)
     visible = {check.id for check in grade.checks if not check.hidden}

@@ -1,4 +1,4 @@
-"""The robot in a recorded posture."""
+"""Shows the robot in a recorded posture."""
 
 from __future__ import annotations
 
@@ -7,36 +7,38 @@ from bisect import bisect_right
 import mujoco
 import numpy as np
 
-from autograder.recording.replay.recording import NoRecording, Posture, Recording
+from autograder.recording.replay.recording import Posture, Recording, UnusableRecording
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.scenes import SCENES
 
 
 class RecordedBody:
-    """A humanoid that takes the postures of a recording.
+    """A humanoid that can be set to the postures of a recording.
 
     Raises:
-        NoRecording: the recorded robot is another one.
+        UnusableRecording: the recording was made with another robot or scene.
     """
 
     def __init__(self, recording: Recording) -> None:
         scene = recording.about["scene"]
         if scene not in SCENES:
-            raise NoRecording(f"{recording.path} has the scene {scene[:40]!r}; there are {', '.join(SCENES)}")
+            raise UnusableRecording(
+                f"{recording.path} has the unknown scene {scene[:40]!r}; the known scenes are {', '.join(SCENES)}"
+            )
         self.humanoid = Humanoid(scene)
         model = self.humanoid.model
         known = {model.joint(index).name for index in range(model.njnt)}
         if other := sorted({*recording.joints, *recording.postures[0].objects} - known):
-            raise NoRecording(
-                f"{recording.path} was made with another robot: this one has no joint {other[0][:40]!r}; show it with "
-                "the version that made it"
+            raise UnusableRecording(
+                f"{recording.path} was made with another robot: the present robot has no joint {other[0][:40]!r}; show "
+                "the recording with the version of the course that made it"
             )
         self._places = np.array([model.joint(name).qposadr[0] for name in recording.joints], dtype=int)
         self._postures = recording.postures
         self._times = [posture.t for posture in recording.postures]
 
     def show(self, t: float) -> None:
-        """Set the body to the posture at a time (s), interpolated between two recorded ones."""
+        """Set the robot to the posture at a time (s), interpolated between two recorded postures."""
         after = bisect_right(self._times, t)
         later = self._postures[min(after, len(self._postures) - 1)]
         earlier = self._postures[max(after - 1, 0)]
@@ -55,7 +57,7 @@ class RecordedBody:
 def _between(earlier: object, later: object, share: float) -> np.ndarray:
     """Interpolate between two poses; the result has MuJoCo's order, w first in the quaternion."""
     first, second = np.array(earlier, dtype=float), np.array(later, dtype=float)
-    if np.dot(first[3:], second[3:]) < 0:  # q and -q are the same rotation; take the shorter way
+    if np.dot(first[3:], second[3:]) < 0:  # q and -q are the same rotation; choose the nearer one
         second[3:] *= -1
     pose = (1 - share) * first + share * second
     return pose[[0, 1, 2, 6, 3, 4, 5]]

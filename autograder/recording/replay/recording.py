@@ -17,14 +17,14 @@ from autograder.recording.entry import CHECKS, EVENTS, FORMAT, METADATA, ROSOUT
 from autograder.recording.narration import brief
 from ros_runtime.course_error import CourseError
 
-LARGEST_FILE = 128 * 2**20  # bytes
-MOST_MESSAGES = 500_000
-AROUND = 6.0  # s shown around a check
-BEFORE = 2 / 3  # of these seconds are before the verdict
+MAX_FILE_BYTES = 128 * 2**20
+MAX_MESSAGES = 500_000
+SPAN_LENGTH = 6.0  # s shown around a verdict
+SHARE_BEFORE_VERDICT = 2 / 3  # share of these seconds that is before the verdict
 
 
-class NoRecording(CourseError):
-    """The file cannot be shown; the message says what it is and what to do."""
+class UnusableRecording(CourseError):
+    """The file cannot be shown; the message says what was found and what to do."""
 
 
 @dataclass(frozen=True)
@@ -38,19 +38,19 @@ class Posture:
 
 
 class Kind(Enum):
-    """What a moment is about."""
+    """The kind of a moment."""
 
     EVENT = "event"
     FEEDBACK = "feedback"
     OUTPUT = "output"
     PASSED = "passed"
     FAILED = "failed"
-    TROUBLE = "trouble"
+    WARNING = "warning"
 
 
 @dataclass(frozen=True)
 class Moment:
-    """What happened at `t` (s on the arena's clock); `check`: the id of the check whose verdict it is, else ""."""
+    """An event, a line of output or a verdict at `t` (s, arena's clock); `check`: the verdict's check, else ""."""
 
     t: float
     kind: Kind
@@ -63,11 +63,11 @@ class Recording:
     """The content of a file of `course grade --record` or `course check --record`.
 
     Attributes:
-        path: of the file.
-        about: exercise, student, scenario, …: the metadata that was written.
-        joints: names of the joints of the postures.
-        postures: in order of time, 25 a second of the arena's clock; none where there was no robot.
-        moments: what happened, in order of time, and the verdicts of the checks that were judged on this run.
+        path: path of the file.
+        about: the recording's metadata, such as exercise, student and scenario.
+        joints: names of the joints in the postures.
+        postures: in order of time, 25 per second of the arena's clock; empty without a robot.
+        moments: events, output and the verdicts of the checks that judged this run, in order of time.
     """
 
     path: Path
@@ -81,7 +81,7 @@ class Recording:
         """Read a file.
 
         Raises:
-            NoRecording: the file is not a recording, is damaged, or was written by another version.
+            UnusableRecording: the file is not a recording, is damaged, or was written by another version.
         """
         _require_a_small_file(path)
         try:
@@ -90,14 +90,16 @@ class Recording:
                 about = _metadata(path, reader.iter_metadata())
                 collected = _Collected(about["namespace"])
                 for number, (schema, channel, message) in enumerate(reader.iter_messages()):
-                    if number >= MOST_MESSAGES:
-                        raise NoRecording(f"{path} holds more than {MOST_MESSAGES:,} messages; no arena does")
+                    if number >= MAX_MESSAGES:
+                        raise UnusableRecording(
+                            f"{path} holds more than {MAX_MESSAGES:,} messages, too many to show"
+                        )
                     if schema:
                         collected.add(message.log_time / 1e9, channel.topic, schema.name, message.data)
-        except NoRecording:
+        except UnusableRecording:
             raise
         except Exception as error:  # three libraries raise different errors for malformed bytes
-            raise NoRecording(
+            raise UnusableRecording(
                 f"{path} is not a recording of an arena, or it is damaged ({type(error).__name__}: {error}); expected "
                 "an MCAP file that `course grade --record` or `course check --record` wrote"
             ) from error
@@ -118,17 +120,17 @@ class Recording:
         """Return the verdict of a check.
 
         Raises:
-            NoRecording: it was not judged on this run; the message names those that were.
+            UnusableRecording: the check did not judge this run; the message lists the checks that did.
         """
         verdicts = {moment.check: moment for moment in reversed(self.moments) if moment.check}
         if check in verdicts:
             return verdicts[check]
         known = ", ".join(reversed(verdicts)) or "none"
-        raise NoRecording(f"no check {check!r} was judged on this run; there are {known}")
+        raise UnusableRecording(f"no check {check!r} judged this run; the checks that did are {known}")
 
 
 class _Collected:
-    """Sorts the messages of a file."""
+    """Collects postures and moments from the messages of a file."""
 
     def __init__(self, namespace: str) -> None:
         self._own = f"{namespace.rstrip('/')}/"
@@ -170,9 +172,9 @@ class _Collected:
     def _log(self, t: float, topic: str, line: Log) -> None:
         text = readable(line.msg)
         if topic == EVENTS:
-            self.moments.append(Moment(t, Kind.EVENT if line.level < Log.WARN else Kind.TROUBLE, text))
+            self.moments.append(Moment(t, Kind.EVENT if line.level < Log.WARN else Kind.WARNING, text))
         elif line.name == CHECKS:
-            kind = {Log.ERROR: Kind.FAILED, Log.INFO: Kind.PASSED}.get(line.level, Kind.TROUBLE)
+            kind = {Log.ERROR: Kind.FAILED, Log.INFO: Kind.PASSED}.get(line.level, Kind.WARNING)
             self.moments.append(Moment(t, kind, text, line.function))
         else:
             self.moments.append(Moment(t, Kind.OUTPUT, readable(f"{line.name}: {line.msg}")))
@@ -187,52 +189,54 @@ def _require_a_small_file(path: Path) -> None:
     try:
         size = path.stat().st_size if path.is_file() else None
     except OSError as error:
-        raise NoRecording(f"{path} cannot be read: {error}") from error
+        raise UnusableRecording(f"{path} cannot be read: {error}") from error
     if size is None:
-        raise NoRecording(f"{path} is no file; name an .mcap file, such as recordings/walk_to/walk.mcap")
-    if size > LARGEST_FILE:
-        raise NoRecording(
-            f"{path} has {size / 2**20:.0f} MiB; a recording has at most {LARGEST_FILE // 2**20}"
+        raise UnusableRecording(
+            f"{path} is not a file; give an .mcap file, such as recordings/walk_to/walk.mcap"
+        )
+    if size > MAX_FILE_BYTES:
+        raise UnusableRecording(
+            f"{path} has {size / 2**20:.0f} MiB; a recording has at most {MAX_FILE_BYTES // 2**20} MiB"
         )
 
 
 def _metadata(path: Path, records: Iterator[Any]) -> Mapping[str, str]:
     about = next((record.metadata for record in records if record.name == METADATA), None)
     if about is None:
-        raise NoRecording(
-            f"{path} is an MCAP file, but no recording of an arena; open it with Foxglove or another viewer"
+        raise UnusableRecording(
+            f"{path} is an MCAP file, but not a recording of an arena; open it with Foxglove or another viewer"
         )
     if about.get("format") != FORMAT:
-        raise NoRecording(
-            f"{path} was written by another version (format {about.get('format', 'unknown')!s:.20}; this one reads "
-            f"{FORMAT}): show it with that version, or record it again"
+        raise UnusableRecording(
+            f"{path} was written by another version (format {about.get('format', 'unknown')!s:.20}; this version "
+            f"reads {FORMAT}): show it with that version, or record it again"
         )
     return about
 
 
 def readable(text: str) -> str:
-    """Return text in one line without control characters, which a program may have printed to move a cursor."""
+    """Return the text in one line without control characters, which a program may have printed to move the cursor."""
     return "".join(letter if letter.isprintable() else " " for letter in text)
 
 
 @dataclass(frozen=True)
 class Span:
-    """From `start` to `end`, s on the arena's clock."""
+    """The part of a recording from `start` to `end`, s on the arena's clock."""
 
     start: float
     end: float
 
 
 def span_of(recording: Recording, around: str | None, seconds: float | None) -> Span:
-    """Return what to show: the seconds around a check, by default around the first that failed, else all.
+    """Return the part to show: around a check's verdict, by default around the first failed check, else everything.
 
     Args:
-        recording: of which.
-        around: id of a check.
-        seconds: how long; without a check, from the beginning.
+        recording: the recording.
+        around: the check's id, or None.
+        seconds: length of the part, or None; if no check failed, the part starts at the beginning.
 
     Raises:
-        NoRecording: there is no such check.
+        UnusableRecording: there is no such check.
         ValueError: the duration is not positive.
     """
     if seconds is not None and not seconds > 0:
@@ -240,15 +244,14 @@ def span_of(recording: Recording, around: str | None, seconds: float | None) -> 
     verdict = recording.verdict(around) if around else recording.first_failed
     if verdict is None:
         return Span(0.0, min(recording.end, seconds or recording.end))
-    length = min(seconds or AROUND, recording.end)
-    start = min(max(0.0, verdict.t - BEFORE * length), recording.end - length)
+    length = min(seconds or SPAN_LENGTH, recording.end)
+    start = min(max(0.0, verdict.t - SHARE_BEFORE_VERDICT * length), recording.end - length)
     return Span(start, start + length)
 
 
 def require_postures(recording: Recording) -> None:
-    """Require recorded postures of a robot."""
+    """Require that the recording has postures of a robot."""
     if not recording.postures:
-        raise NoRecording(
-            f"no robot was recorded in {recording.about['scenario']}, as the scenario has none; --text shows what "
-            "happened"
+        raise UnusableRecording(
+            f"the scenario {recording.about['scenario']} has no robot, so none was recorded; --text shows the events"
         )

@@ -1,4 +1,4 @@
-"""The events of a recording as lines for the terminal."""
+"""Prints the events of a recording as lines for the terminal."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ COLOURS = {
     Kind.OUTPUT: "cyan",
     Kind.PASSED: "green",
     Kind.FAILED: "bold red",
-    Kind.TROUBLE: "yellow",
+    Kind.WARNING: "yellow",
 }
 
 
 def title(recording: Recording) -> str:
-    """Return a line that names exercise, student, scenario, seed, duration and clock scale of a recording."""
+    """Return a line with exercise, student, scenario, seed, duration and clock scale of a recording."""
     about = recording.about
     seed = f", seed {about['seed']}" if about["seed"] not in ("", "None") else ""
     return (
         f"{about['exercise']} · {about['student']} · scenario {about['scenario']}{seed}: {recording.end:.1f} s on the "
-        f"arena's clock, which ran {about['scale']} times as fast"
+        f"arena's clock, which ran {about['scale']} times as fast as real time"
     )
 
 
 def line(moment: Moment) -> Text:
-    """Return a moment as a line: its time, and what happened."""
+    """Return a moment as a line, with its time and text."""
     return Text.assemble((f"{moment.t:8.2f} s  ", "dim"), (moment.text, COLOURS[moment.kind]))
 
 
 def time_line(recording: Recording) -> Iterator[Text]:
-    """Yield a line for each event; consecutive feedback messages are summed up in one line."""
+    """Yield a line for each event; of consecutive feedback messages only the first, the rate and the last are shown."""
     waiting: list[Moment] = []
     for moment in recording.moments:
         if moment.kind is Kind.FEEDBACK:

@@ -10,9 +10,9 @@ from autograder.recording.replay.captions import captions
 from autograder.recording.replay.recording import Moment, Recording, Span
 from robot_sim.views.web_view import WebView
 
-FRAME = 0.04  # s, between two postures
-PAUSE = 1.5  # s at the end, before it begins again
-LETTERS = 100  # of a caption's line
+FRAME_PERIOD = 0.04  # s, from one posture to the next
+END_PAUSE = 1.5  # s, at the end, before the recording begins again
+CAPTION_WIDTH = 100  # characters
 
 
 def play(
@@ -20,22 +20,22 @@ def play(
     span: Span,
     port: int,
     *,
-    ready: Callable[[str], None],
-    tell: Callable[[Moment], None],
-    goes_on: Callable[[], bool] = lambda: True,
+    on_ready: Callable[[str], None],
+    on_moment: Callable[[Moment], None],
+    keep_running: Callable[[], bool] = lambda: True,
 ) -> None:
-    """Show the robot in this span in a loop, with captions; `tell` gets the moments of the first round.
+    """Show the robot in this span in a loop, with captions.
 
     Args:
-        recording: what to show.
-        span: which part of it.
-        port: where the view listens; 0: the first free one from 8080 on.
-        ready: gets the view's address.
-        tell: gets each moment when its time comes.
-        goes_on: called before every frame; False ends the loop.
+        recording: the recording to show.
+        span: the part to show.
+        port: the view's port; 0: the first free port from 8080 on.
+        on_ready: called with the view's address.
+        on_moment: called with each moment at its time, in the first round only.
+        keep_running: called before every frame; False ends the loop.
 
     Raises:
-        NoRecording: the recorded robot is another one.
+        UnusableRecording: the recording was made with another robot or scene.
         OSError: the port is taken.
         ImportError: this MuJoCo is older than 4.0 and has no web viewer.
     """
@@ -43,19 +43,19 @@ def play(
     body.show(span.start)
     view = WebView(body.humanoid, port)
     try:
-        ready(view.url)
-        untold = [moment for moment in recording.moments if span.start <= moment.t <= span.end]
+        on_ready(view.url)
+        remaining = [moment for moment in recording.moments if span.start <= moment.t <= span.end]
         began = time.monotonic()
-        while goes_on():
+        while keep_running():
             elapsed = time.monotonic() - began
             t = min(span.start + elapsed, span.end)
             body.show(t)
-            view.write(captions(t, recording.moments, LETTERS))
+            view.write(captions(t, recording.moments, CAPTION_WIDTH))
             view.show()
-            while untold and untold[0].t <= t:
-                tell(untold.pop(0))
-            if elapsed > span.end - span.start + PAUSE:
+            while remaining and remaining[0].t <= t:
+                on_moment(remaining.pop(0))
+            if elapsed > span.end - span.start + END_PAUSE:
                 began = time.monotonic()
-            time.sleep(FRAME)
+            time.sleep(FRAME_PERIOD)
     finally:
         view.close()

@@ -57,7 +57,7 @@ def test_hostile_submissions_leave_nothing_and_change_no_other_grade() -> None:
 
 
 def test_each_kind_of_residue_is_seen() -> None:
-    with leftovers(patience=0.2) as left:
+    with leftovers(timeout=0.2) as left:
         kept = [subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)]
         folder = Path(tempfile.mkdtemp(prefix=f"arena-{os.getpid()}-", dir="/tmp"))
         domain = ReservedDomain()
@@ -73,7 +73,7 @@ def test_each_kind_of_residue_is_seen() -> None:
 
 def test_an_orphan_is_seen() -> None:
     orphan = "import os, time\nif os.fork() == 0:\n    os.setsid(); time.sleep(60)"
-    with leftovers(patience=0.2) as left:
+    with leftovers(timeout=0.2) as left:
         subprocess.run([sys.executable, "-c", orphan], check=True)
     (line,) = left
     pid = int(line.split()[1].rstrip(","))

@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 EXERCISE = "battery_service"
-# Points by a word in the source; "slow" is in work until the test writes a file, and the stop is heeded.
+# Points by a word in the source; "slow" is being graded until the test writes a file, and the stop is heeded.
 JUDGE = """
 import sys, time
 from pathlib import Path
@@ -124,7 +124,7 @@ def test_the_latest_of_what_is_handed_in_counts_and_a_second_run_goes_on(tmp_pat
     with watching(tmp_path) as watcher:
         hand_in(tmp_path, "anna", "slow and wrong")
         until(watcher, lambda: in_work(tmp_path))
-        hand_in(tmp_path, "anna", "right")  # while the first is in work
+        hand_in(tmp_path, "anna", "right")  # while the first is being graded
         hand_in(tmp_path, "bert", "right, too")
         until(watcher, lambda: scores(tmp_path) == {"bert": 1.0})
         (tmp_path / "go").touch()

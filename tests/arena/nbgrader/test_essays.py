@@ -85,7 +85,7 @@ def test_when_every_criterion_has_points_the_next_run_makes_grade_and_page(grade
     assert "18.5 / 20.0" in text
     assert "well argued" in text
     assert "wire 24 V" in re.sub("<[^>]+>", "", text)  # coloured, so in pieces
-    assert "Your marker saw this drawn." in text
+    assert "Your marker saw a drawing of this." in text
 
 
 def test_autograding_again_from_formgrader_leaves_the_points_alone(gradebook, course):

@@ -16,4 +16,4 @@ def test_every_shape_and_every_fault_gets_what_is_known_of_it() -> None:
     assert audited.returncode == 0, said
     assert "kills: 8 of 8" in said
     assert "false failures: 0 in 5 runs" in said
-    assert "named by 0" not in said
+    assert "must catch 0" not in said

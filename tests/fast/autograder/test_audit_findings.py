@@ -11,7 +11,7 @@ from audited.proof import enough_to_catch, enough_to_prove
 from autograder.authoring.checks import Scenario, check
 from autograder.classroom.audit.kill_matrix import figures, kill_matrix
 from autograder.classroom.audit.known_submission import HeaderError, known_submissions, read_known_submission
-from autograder.classroom.audit.run import AuditedRun, audit, checks_without_a_killer
+from autograder.classroom.audit.run import AuditedRun, audit, unproved_checks
 from autograder.engine.exercise import FOLDER_VARIABLE, Exercise
 from autograder.engine.verdict import CheckVerdict, Grade
 
@@ -80,7 +80,7 @@ def test_header_is_read_from_a_file_that_python_cannot_parse(folder):
     ("kind", "source", "complaint"),
     [
         ("correct", "import rclpy\n", "Style"),
-        ("correct", '"""Style: plain\nCaught by: ends\n"""', "said to be correct"),
+        ("correct", '"""Style: plain\nCaught by: ends\n"""', "is in correct/, but"),
         ("faulty", '"""Fault: sleeps"""', "Caught by"),
         ("faulty", '"""Fault: sleeps\nCaught by: ends\nAlso fails: ends\n"""', "twice"),
         ("hostile", '"""Attack: forks\nCaught by: ends\n"""', "Outcome"),
@@ -149,7 +149,7 @@ def test_hostile_submission_must_get_a_grade(folder):
 def test_check_is_without_a_killer_until_a_submission_that_names_it_fails_it(folder, exercise):
     known = read(folder(faulty=FAULTY), "faulty")
     killed = run_of(known, appears="passed", answers="failed", ends="failed")
-    assert checks_without_a_killer([killed], exercise) == ["appears", "ends"]
+    assert unproved_checks([killed], exercise) == ["appears", "ends"]
 
 
 def test_matrix_shows_every_submission_and_check_and_the_figures(folder, exercise):

@@ -112,7 +112,9 @@ def test_the_file_is_whole_after_every_run_and_keeps_what_it_had(of_yesterday, p
 @pytest.mark.parametrize("text", ["", "[]", '{"battery_service": [{"grade": {}}]}', '{"a": 1}'])
 def test_a_file_that_is_no_record_is_refused_and_left_as_it_is(path, text):
     path.write_text(text)
-    with pytest.raises(UnusableAuditRecord, match=r"is no file of course audit --json.*leave out --resume"):
+    with pytest.raises(
+        UnusableAuditRecord, match=r"was not written by course audit --json.*leave out --resume"
+    ):
         read_runs(path)
     ran = CliRunner().invoke(app("audit"), ["audit", "battery_service", "--json", str(path), "--resume"])
     assert ran.exit_code == 2
@@ -143,7 +145,7 @@ def test_an_interrupted_audit_says_how_to_go_on_and_then_grades_only_what_is_lef
     ran = CliRunner().invoke(app("audit"), [*command, "--resume"])
     assert ran.exit_code == 0, ran.output
     assert sorted(printed + graded) == [known.name for known in CORRECT]
-    assert ran.output.count("(kept)") == len(printed)
+    assert ran.output.count("(reused)") == len(printed)
     assert f"0 in {len(CORRECT)} runs of correct" in ran.output
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from autograder.classroom.class_grading import setting
+from autograder.classroom.class_grading import prepared_batch
 from autograder.engine.path_exposure import HiddenChecksRefused, require_hidden
 from autograder.isolation.arena_spec import Kind
 from autograder.isolation.availability import Isolation
@@ -49,7 +49,9 @@ def test_the_command_refuses_and_writes_nothing(tmp_path: Path, monkeypatch: pyt
     work = tmp_path / "ada" / "battery_service.py"
     work.parent.mkdir()
     work.write_text("print()")
-    monkeypatch.setattr(setting, "available_isolation", lambda: Isolation(Kind.NAMESPACES, "it is said"))
+    monkeypatch.setattr(
+        prepared_batch, "available_isolation", lambda: Isolation(Kind.NAMESPACES, "it is said")
+    )
     out = Path(sys.prefix, "graded")
     ran = CliRunner().invoke(app("grade"), ["grade", str(tmp_path), "--out", str(out)])
     assert ran.exit_code == 1

@@ -56,7 +56,7 @@ def test_a_patch_that_no_longer_applies_says_what_to_do(known):
     with pytest.raises(PatchError, match=r"no longer applies to correct/plain\.py.*--to-patch forgets"):
         whole_program(known / "faulty/forgets.patch")
     sound.unlink()
-    with pytest.raises(PatchError, match="must name, after ---, the sound submission"):
+    with pytest.raises(PatchError, match="the line --- must name the correct submission"):
         whole_program(known / "faulty/forgets.patch")
 
 

@@ -37,7 +37,7 @@ def path() -> Iterator[Path]:
 def test_what_tracing_keeps_for_each_user_of_the_machine_is_not_left_behind() -> None:
     path = SHARED_MEMORY / f"lttng-ust-wait-6-{uuid.uuid4().int % 10**9}"
     try:
-        with leftovers(patience=0.0) as left:
+        with leftovers(timeout=0.0) as left:
             path.write_bytes(b"")  # as when another user's first node starts
     finally:
         path.unlink(missing_ok=True)
@@ -45,8 +45,8 @@ def test_what_tracing_keeps_for_each_user_of_the_machine_is_not_left_behind() ->
 
 
 def test_a_file_is_left_behind_when_nobody_uses_it_any_more(path: Path) -> None:
-    with leftovers(patience=0.0) as at_the_end:
-        with leftovers(patience=0.0) as in_use:
+    with leftovers(timeout=0.0) as at_the_end:
+        with leftovers(timeout=0.0) as in_use:
             node = subprocess.Popen(
                 [sys.executable, "-c", MAPS, str(path)], stdin=subprocess.PIPE, stdout=subprocess.PIPE
             )

@@ -11,7 +11,13 @@ from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.effort import Effort
 from autograder.classroom.batch.job import GradingJob, Outcome
 from autograder.classroom.batch.runner import Graded
-from autograder.classroom.class_grading.progress import MOST_SHOWN, PERIOD, BatchProgress, Pace, in_words
+from autograder.classroom.class_grading.progress import (
+    MAX_LISTED_JOBS,
+    PRINT_PERIOD,
+    BatchProgress,
+    Pace,
+    in_words,
+)
 from autograder.engine.verdict import CheckVerdict, Grade
 
 VERDICT = CheckVerdict("id", "title", "passed", 1, 1)
@@ -45,7 +51,7 @@ def test_time_left_follows_what_was_measured_and_not_what_was_known(clock):
     pace = Pace(40, clock)
     assert pace.seconds_left() is None
     pace.add(20)
-    pace.was_known(20)
+    pace.exclude_from_rate(20)
     clock.now = 10.0
     assert pace.seconds_left() is None
     pace.add(5)
@@ -76,7 +82,7 @@ def test_without_a_terminal_there_are_lines_now_and_then_with_what_runs(clock):
         progress.verdict(VERDICT)
         progress.graded(result("anna"), checks=1)
         progress.running([job("bert")])
-        clock.now = PERIOD
+        clock.now = PRINT_PERIOD
         progress.running([job("bert"), job("carl")])
         progress.running([job("bert")])
     lines = console.file.getvalue().splitlines()
@@ -92,7 +98,7 @@ def test_on_a_terminal_all_that_runs_is_shown_with_its_time(clock):
         progress.expect(checks=20, submissions=10)
         progress.running([job("anna")])
         clock.now = 75.0
-        progress.running([job("anna"), *(job(f"student{number}") for number in range(MOST_SHOWN))])
+        progress.running([job("anna"), *(job(f"student{number}") for number in range(MAX_LISTED_JOBS))])
         progress.graded(result("known", cached=True), checks=2)
     shown = console.file.getvalue()
     for words in (
@@ -111,7 +117,7 @@ def test_a_submission_without_verdicts_is_counted_as_done(clock):
     console = Console(file=io.StringIO(), width=200)
     progress = BatchProgress(console, clock=clock)
     progress.expect(checks=4, submissions=2)
-    clock.now = PERIOD
+    clock.now = PRINT_PERIOD
     lost = Graded(Work("anna", "walk_to"), Grade("walk_to", "anna", "", reason="lost"), {})
     progress.graded(lost, checks=2)
     assert progress._pace.done == 2
@@ -123,7 +129,7 @@ def test_what_is_put_off_is_told_and_its_verdicts_are_expected_once_more(clock):
     progress.expect(checks=1, submissions=1)
     progress.verdict(VERDICT)
     first = Grade("walk_to", "anna", "namespaces", [VERDICT], reason="the machine was too busy\nfor that")
-    progress.retry_later(job("anna"), Outcome(first, "namespaces", may_end_otherwise=True))
+    progress.retry_later(job("anna"), Outcome(first, "namespaces", retry_may_succeed=True))
     assert "anna · walk_to  not graded yet" in console.file.getvalue()
     assert console.file.getvalue().endswith("the machine was too busy\n")
     assert (progress._pace.done, progress._pace.expected) == (1, 2)

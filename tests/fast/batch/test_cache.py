@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from autograder.classroom.batch import version as module
-from autograder.classroom.batch.cache import GradeCache, Known
+from autograder.classroom.batch.cache import CachedGrade, GradeCache
 from autograder.classroom.batch.effort import Effort
 from autograder.classroom.batch.version import checks_version
 from autograder.engine.exercise import load_exercise
@@ -30,17 +30,17 @@ def passed(submission, status="passed"):
 @pytest.fixture
 def cache(tmp_path):
     cache = GradeCache(tmp_path, ISOLATED)
-    cache.put(ANNA, EXERCISE, 0, Known(passed(ANNA), TOOK))
+    cache.put(ANNA, EXERCISE, 0, CachedGrade(passed(ANNA), TOOK))
     return cache
 
 
 def test_the_same_work_has_the_same_grade_and_what_it_took(cache):
-    assert cache.get(ANNA, EXERCISE, 0) == Known(passed(ANNA), TOOK)
+    assert cache.get(ANNA, EXERCISE, 0) == CachedGrade(passed(ANNA), TOOK)
 
 
 def test_the_same_source_by_another_student_has_it_in_that_students_name(cache):
     bert = Submission("battery_service", "bert", ANNA.sources)
-    assert cache.get(bert, EXERCISE, 0) == Known(passed(bert), TOOK)
+    assert cache.get(bert, EXERCISE, 0) == CachedGrade(passed(bert), TOOK)
 
 
 def test_another_source_seed_isolation_or_set_of_checks_is_graded_anew(cache, tmp_path):
@@ -55,7 +55,7 @@ def test_another_source_seed_isolation_or_set_of_checks_is_graded_anew(cache, tm
 
 def test_what_was_not_graded_is_not_cached(tmp_path):
     cache = GradeCache(tmp_path, ISOLATED)
-    cache.put(ANNA, EXERCISE, 0, Known(passed(ANNA, status="error"), TOOK))
+    cache.put(ANNA, EXERCISE, 0, CachedGrade(passed(ANNA, status="error"), TOOK))
     assert cache.get(ANNA, EXERCISE, 0) is None
 
 

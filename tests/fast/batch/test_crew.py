@@ -44,7 +44,7 @@ def outcomes(crew: WorkerPool, students: list[str]) -> list[tuple[str, str, str]
     for student in students:
         while not crew.has_room:
             found += crew.wait()
-        crew.give(job(student))
+        crew.submit(job(student))
     while crew.is_busy:
         found += crew.wait()
     crew.close()
@@ -52,7 +52,7 @@ def outcomes(crew: WorkerPool, students: list[str]) -> list[tuple[str, str, str]
 
 
 def test_a_job_that_kills_its_worker_is_not_graded_and_takes_no_other_with_it(tmp_path: Path) -> None:
-    crew = WorkerPool(Workers(new_pool, at_a_time=2), partial(grade_or_die, tmp_path))
+    crew = WorkerPool(Workers(new_pool, max_unfinished=2), partial(grade_or_die, tmp_path))
     students = ["always", "anna", "bert", "carl", "once"]
     found = outcomes(crew, students)
     assert [student for student, _, _ in found] == students
@@ -67,7 +67,7 @@ def test_an_executor_that_cannot_be_opened_is_an_error_and_no_grade() -> None:
         raise OSError("no processes left")
 
     with pytest.raises(OSError, match="no processes left"):
-        outcomes(WorkerPool(Workers(unavailable, at_a_time=1), partial(grade_or_die, Path())), ["anna"])
+        outcomes(WorkerPool(Workers(unavailable, max_unfinished=1), partial(grade_or_die, Path())), ["anna"])
 
 
 def test_what_could_not_be_graded_is_done_again_alone_at_the_end() -> None:
@@ -80,7 +80,7 @@ def test_what_could_not_be_graded_is_done_again_alone_at_the_end() -> None:
         busy = job.student == "always" or (job.student == "at first" and tries[job.student] == 1)
         grade = not_graded(job.exercise, job.student, "", "the machine was too busy") if busy else passes(job)
         running.remove(job.student)
-        return Outcome(grade, "namespaces", may_end_otherwise=busy)
+        return Outcome(grade, "namespaces", retry_may_succeed=busy)
 
     retry_later: list[str] = []
     crew = WorkerPool(threads(3), busy_at_first, lambda job, outcome: retry_later.append(job.student))

@@ -14,7 +14,7 @@ from autograder.classroom.batch.request import BatchRequest, UnusableRequest
 from autograder.classroom.batch.seeds import Seeds
 from autograder.classroom.batch.selection import require_seed
 from autograder.classroom.batch.shards import Shard
-from autograder.classroom.class_grading.setting import choose_seeds
+from autograder.classroom.class_grading.prepared_batch import choose_seeds
 from autograder.engine import grading
 from autograder.engine.arena_run import NotGraded
 from autograder.engine.exercise import Exercise, exercise_names, load_exercise
@@ -78,7 +78,7 @@ def test_under_watch_who_hands_in_again_meets_other_inputs():
     "options", [{"students": ("anna",)}, {"watch": True}, {"json_file": Path("all.json")}]
 )
 def test_a_shard_is_a_part_of_the_whole_class(options):
-    with pytest.raises(UnusableRequest, match=r"--shard (takes )?a part"):
+    with pytest.raises(UnusableRequest, match=r"--shard (grades )?a part"):
         BatchRequest(Path("submitted"), Path("graded"), shard=Shard(1, 2), **options)
 
 

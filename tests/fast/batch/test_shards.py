@@ -67,7 +67,7 @@ def test_a_merge_says_which_shard_and_whose_work_is_missing(tmp_path):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"number": 1}, "is in .*leave one of them out"),
+        ({"number": 1}, "is in .*leave out one of these"),
         ({"number": 2, "seed": 7}, "different seed"),
         ({"number": 2, "isolation": "untrusted"}, "without isolation"),
     ],

@@ -22,7 +22,7 @@ def hand_in(folder: Path, text: str, student: str = "anna") -> None:
 
 
 def names(watched: WatchedFolder) -> list[str]:
-    return [work.student for work in watched.look()]
+    return [work.student for work in watched.poll()]
 
 
 def test_it_comes_when_two_looks_find_it_the_same_and_once(folder):
@@ -37,7 +37,7 @@ def test_it_comes_when_two_looks_find_it_the_same_and_once(folder):
     assert names(watched) == []
     assert watched.unfinished == 1
     (work,) = watched.collection.works
-    watched.is_graded(work)
+    watched.mark_graded(work)
     assert names(watched) == []
     assert watched.unfinished == 0
 
@@ -46,11 +46,11 @@ def test_what_is_replaced_while_it_is_graded_comes_again_after_that(folder):
     hand_in(folder, "first")
     watched = WatchedFolder(folder)
     names(watched)
-    (work,) = watched.look()
+    (work,) = watched.poll()
     hand_in(folder, "second")
     names(watched)
-    assert names(watched) == []  # the first is in work
-    watched.is_graded(work)
+    assert names(watched) == []  # the first is being graded
+    watched.mark_graded(work)
     assert watched.unfinished == 1
     assert names(watched) == ["anna"]
 
@@ -60,7 +60,7 @@ def test_what_is_replaced_before_its_turn_waits_for_another_look(folder):
         hand_in(folder, "first", student)
     watched = WatchedFolder(folder)
     names(watched)
-    turns = watched.look()
+    turns = watched.poll()
     assert next(turns).student == "anna"
     hand_in(folder, "replaced while anna is graded", "bert")
     assert list(turns) == []
@@ -72,8 +72,8 @@ def test_a_file_of_the_same_size_that_was_moved_there_is_a_new_one(folder):
     hand_in(folder, "first")
     watched = WatchedFolder(folder)
     names(watched)
-    for work in watched.look():
-        watched.is_graded(work)
+    for work in watched.poll():
+        watched.mark_graded(work)
     (folder / "new").write_text("other")
     (folder / "new").rename(folder / "anna/battery_service.py")
     names(watched)

@@ -12,7 +12,7 @@ from autograder.classroom.book.chapter_run import answered
 from autograder.classroom.book.kept_runs import KeptRuns
 from autograder.classroom.book.links import Links
 from autograder.classroom.book.reader_copy import HIDDEN_INPUT, reader_copy
-from autograder.classroom.book.still_widgets import LIVE, STATE, VIEW, still
+from autograder.classroom.book.still_widgets import STATE, VIEW, VIEW_CAPTION, still
 from lab.learning.question import read_question
 
 PAGES = {PurePosixPath(page) for page in ("docs/glossary.md", "docs/robot.md", "chapters/01_a.ipynb")}
@@ -120,10 +120,10 @@ def test_widgets_are_shown_as_they_were_last() -> None:
     box = still("box", models)
     assert '<progress value="30.0" max="120">' in box
     assert "<button disabled>&lt;Cancel&gt;</button>" in box
-    assert f'<img src="data:image/jpeg;base64,AAAA" alt="{LIVE}">' in still("live", models)
-    assert "a control stands here" in still("slider", models)
+    assert f'<img src="data:image/jpeg;base64,AAAA" alt="{VIEW_CAPTION}">' in still("live", models)
+    assert "there is an interactive control here" in still("slider", models)
     assert "shortest, m: 0.2. In the lab, a slider goes up to 1." in still("choice", models)
-    assert "a control stands here" in still("unknown", models)
+    assert "there is an interactive control here" in still("unknown", models)
 
     notebook = chapter(new_code_cell("widget", id="one"))
     run = nbformat.from_dict(notebook)

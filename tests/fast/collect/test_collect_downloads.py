@@ -93,7 +93,7 @@ def test_every_form_of_a_platforms_download_is_known(tmp_path: Path, odd: str) -
     done = course(download, "--from", platform, "--out", tmp_path / "s")
     assert done.exit_code == 0, done.output
     assert sorted(programs(tmp_path / "s")) == students
-    _, _, late = said(done).partition("late, as the platform says: ")
+    _, _, late = said(done).partition("late, according to the platform: ")
     assert late.startswith(("anon_Zq9kE ", "le_e-502 ")) == (platform == "canvas")
 
 
@@ -123,8 +123,8 @@ def test_a_folder_around_everything_is_nobodys(tmp_path: Path, platform: str) ->
             [
                 "question.html is not named like an exercise",
                 "was handed in again as",
-                "late, as the platform says: oneil",
-                "nothing to grade from: kimcleo-103; --exercise NAME takes a file of any name",
+                "late, according to the platform: oneil",
+                "no submission from: kimcleo-103; --exercise NAME accepts a file of any name",
             ],
         ),
         ("moodle", ["onlinetext.html does not have the name of a Moodle submission"]),
@@ -137,7 +137,7 @@ def test_a_folder_around_everything_is_nobodys(tmp_path: Path, platform: str) ->
         ),
         (
             "classroom50",
-            ["README.md is not named like an exercise", "walk_to.py is of walk_to, not of battery_service"],
+            ["README.md is not named like an exercise", "walk_to.py is for walk_to, not for battery_service"],
         ),
     ],
 )
@@ -175,10 +175,10 @@ def test_a_file_of_any_name_counts_where_the_exercise_is_given(tmp_path: Path) -
         tmp_path / "s",
     )
     assert programs(tmp_path / "s") == {"leeanna-1": PROGRAM}
-    assert "walk_to.py is of walk_to, not of battery_service" in said(done)
+    assert "walk_to.py is for walk_to, not for battery_service" in said(done)
     assert "notes.txt is not named like an exercise" in said(done)
     assert "hw.zip is an archive, and archives are not opened: unpack the download" in said(done)
-    assert "nothing to grade from: bo-3, jo-4, kim-2 1 submissions" in said(done)
+    assert "no submission from: bo-3, jo-4, kim-2 1 submissions" in said(done)
 
 
 def test_files_called_as_they_should_be_come_before_others(tmp_path: Path) -> None:
@@ -213,7 +213,7 @@ def test_nothing_is_overwritten_without_being_asked(tmp_path: Path) -> None:
     assert course(first, "--from", "canvas", "--out", out).exit_code == 0
     again = course(first, "--from", "canvas", "--out", out)
     assert again.exit_code == 0
-    assert "1 were there already" in said(again)
+    assert "1 unchanged" in said(again)
     refused = course(second, "--from", "canvas", "--out", out)
     assert refused.exit_code == 1
     assert "--overwrite replaces it" in said(refused)

@@ -39,7 +39,7 @@ def test_names_that_lead_elsewhere_are_refused_and_the_rest_is_collected(tmp_pat
     before = everything(tmp_path)
     done = course(made, "--from", "canvas", "--out", tmp_path / "in/s")
     assert done.exit_code == 1
-    assert "leads out of the download" in said(done)
+    assert "is a path outside the download" in said(done)
     assert everything(tmp_path) - before == {"in/s/lee-1/battery_service/battery_service.py"}
 
 
@@ -88,7 +88,7 @@ def test_a_download_of_too_many_files_or_bytes_is_refused(
 ) -> None:
     files = {f"s{i}_{i}_5_battery_service.py": PROGRAM for i in range(30)}
     made = zipped(tmp_path / "d.zip", files)
-    monkeypatch.setattr(download, "MOST_FILES", 20)
+    monkeypatch.setattr(download, "MAX_FILES", 20)
     assert course(made, "--from", "canvas", "--out", tmp_path / "s").exit_code == 2
     monkeypatch.undo()
     small = download.Budget(20)

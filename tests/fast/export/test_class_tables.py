@@ -103,15 +103,15 @@ def test_canvas_students_are_found_by_the_number_of_their_download(tmp_path: Pat
     assert of_canvas(made.files["battery_service.csv"])[1] == {"101": 5.0}
     assert all(left.has_score for left in made.left_out)
     assert "no such student" in whys(made)["nobody-999"]
-    assert "number 101 is Lee, Anna's" in whys(made)["kimcleo-101"]
+    assert "number 101 belongs to Lee, Anna" in whys(made)["kimcleo-101"]
 
 
 def test_another_number_of_points_on_the_platform_is_refused(tmp_path: Path) -> None:
     options = replace(OPTIONS, roster=roster(tmp_path, CANVAS.replace(",5,10", ",100,10")))
-    with pytest.raises(UnusableBatch, match="has 100 points, and battery_service 5"):
+    with pytest.raises(UnusableBatch, match="has 100 points in Canvas, but battery_service has 5"):
         export("canvas", [ANNA], options)
     moodle = replace(OPTIONS, roster=roster(tmp_path, WORKSHEET.replace("5.00", "100.00")))
-    with pytest.raises(UnusableBatch, match=r"Maximum grade is 100\.00 and battery_service has 5"):
+    with pytest.raises(UnusableBatch, match=r"Maximum grade is 100\.00, but battery_service has 5"):
         export("moodle", [replace(ANNA, student="Anna Lee-9001")], moodle)
 
 
@@ -142,7 +142,7 @@ def test_a_gradebook_is_read_as_canvas_and_excel_write_it(
 )
 def test_other_points_in_canvas_are_refused_however_they_are_written(tmp_path: Path, points: str) -> None:
     text = CANVAS.replace(",,5,10", f',,"{points}",10')
-    with pytest.raises(UnusableBatch, match="export the gradebook again"):
+    with pytest.raises(UnusableBatch, match="export Canvas' gradebook again"):
         export("canvas", [ANNA], replace(OPTIONS, roster=saved(tmp_path, text)))
 
 
@@ -320,7 +320,7 @@ def test_a_roster_that_is_none_is_refused(tmp_path: Path, text: str, said: str) 
 def test_the_same_name_twice_in_a_roster_is_left_to_a_person(tmp_path: Path) -> None:
     twice = CANVAS + '"Lee, Anna",104,s4,anna,A,,3\n'
     made = export("canvas", [ANNA], replace(OPTIONS, roster=roster(tmp_path, twice)))
-    assert "stands in 2 rows" in whys(made)["anna"]
+    assert "is in 2 rows" in whys(made)["anna"]
 
 
 def test_grades_without_any_score_make_no_table() -> None:

@@ -116,7 +116,7 @@ GRADE = records._GRADE.to_json()
 @pytest.mark.parametrize("content", ["", "{", "7", "[null]", json.dumps([GRADE | {"checks": None}])])
 def test_a_damaged_file_of_grades_says_what_to_do(tmp_path: Path, content: str) -> None:
     (tmp_path / GRADES).write_text(content)
-    with pytest.raises(UnusableRecord, match="put the one of the last batch back"):
+    with pytest.raises(UnusableRecord, match="restore the file of the last batch"):
         read_grades(tmp_path / GRADES)
 
 

@@ -28,8 +28,8 @@ from autograder.authoring.evidence import events as ev
 from autograder.recording.entry import METADATA
 from autograder.recording.replay import web
 from autograder.recording.replay.body import RecordedBody
-from autograder.recording.replay.film import RATE, band_height, film
-from autograder.recording.replay.recording import Kind, Moment, NoRecording, Recording, Span, span_of
+from autograder.recording.replay.film import FRAME_RATE, band_height, film
+from autograder.recording.replay.recording import Kind, Moment, Recording, Span, UnusableRecording, span_of
 from autograder.recording.replay.text import time_line
 from course_cli.app import app
 from falls import FALL, FELL_AT, recorded_fall, recordings, simulated, walk
@@ -88,12 +88,12 @@ def test_a_film_shows_the_recorded_robot_and_tells_what_happened(fallen: Any, tm
     count = film(recording, Span(FALL, FELL_AT + 0.3), tmp_path / "fall.webp", camera="side")
     with Image.open(tmp_path / "fall.webp") as moving:
         frames = [np.asarray(frame.convert("RGB")).astype(int) for frame in ImageSequence.Iterator(moving)]
-    assert len(frames) == count == pytest.approx((FELL_AT + 0.3 - FALL) * RATE + 1, abs=1)
+    assert len(frames) == count == pytest.approx((FELL_AT + 0.3 - FALL) * FRAME_RATE + 1, abs=1)
     body = Humanoid("table")
     view = View(body, 480, 360, shadows=False)
     height = frames[0].shape[0] - band_height()
     shown = {}
-    for name, t in (("upright", FALL), ("later", FALL + 8 / RATE)):
+    for name, t in (("upright", FALL), ("later", FALL + 8 / FRAME_RATE)):
         nearest = min(places, key=lambda at: abs(at - t))
         body.data.qpos[:] = places[nearest]
         mujoco.mj_forward(body.model, body.data)
@@ -106,7 +106,7 @@ def test_a_film_shows_the_recorded_robot_and_tells_what_happened(fallen: Any, tm
     assert unlike(frames[0], shown["upright"]) < 0.01 < unlike(frames[0], shown["later"])
     assert unlike(frames[8], shown["later"]) < 0.01 < unlike(frames[8], shown["upright"])
     red = [((frame[height:, :, 0] > 200) & (frame[height:, :, 2] < 150)).sum() for frame in frames]
-    before = int((FELL_AT - FALL) * RATE)
+    before = int((FELL_AT - FALL) * FRAME_RATE)
     assert max(red[:before]) < 10
     assert min(red[before + 1 :]) > 40
 
@@ -116,7 +116,7 @@ def test_the_first_lost_point_is_what_is_shown(fallen: Any) -> None:
     assert span_of(recording, None, 0.6) == Span(pytest.approx(FELL_AT - 0.4), pytest.approx(FELL_AT + 0.2))
     assert span_of(recording, "accepts", 0.6).end == recording.end
     assert span_of(recording, "stays_up", None) == Span(0.0, recording.end)  # it lasted less than 6 s
-    with pytest.raises(NoRecording, match=r"no check 'walks'.*stays_up, accepts"):
+    with pytest.raises(UnusableRecording, match=r"no check 'walks'.*stays_up, accepts"):
         span_of(recording, "walks", None)
 
 
@@ -203,9 +203,9 @@ def test_the_web_view_shows_the_fall_and_tells_each_moment_once(
         recording,
         span,
         0,
-        ready=lambda url: None,
-        tell=told.append,
-        goes_on=lambda: next(frames, None) is not None,
+        on_ready=lambda url: None,
+        on_moment=told.append,
+        keep_running=lambda: next(frames, None) is not None,
     )
     (view,) = seen
     assert told == expected
@@ -269,15 +269,15 @@ def test_what_cannot_be_shown_is_refused_with_what_to_do(fallen: Any, tmp_path: 
     no_robot.write_bytes(recordings(walk())["walk.mcap"])
     film_file = tmp_path / "film.webp"
     for arguments, words in [
-        ((tmp_path / "missing.mcap",), "is no file"),
+        ((tmp_path / "missing.mcap",), "is not a file"),
         ((text,), "is not a recording of an arena, or it is damaged"),
         ((cut,), "is not a recording of an arena, or it is damaged"),
         ((flipped,), "is not a recording of an arena, or it is damaged"),
-        ((other_mcap(tmp_path / "bag.mcap", None),), "no recording of an arena; open it with Foxglove"),
+        ((other_mcap(tmp_path / "bag.mcap", None),), "not a recording of an arena; open it with Foxglove"),
         ((other_mcap(tmp_path / "new.mcap", {"format": "99"}),), "another version (format 99"),
-        ((no_robot, "--film", film_file), "no robot was recorded in walk"),
+        ((no_robot, "--film", film_file), "the scenario walk has no robot"),
         ((path, "--around", "walks"), "no check 'walks'"),
-        ((path, "--film", tmp_path / "film.mp4"), "ends in .mp4; a film here ends in .webp or .gif"),
+        ((path, "--film", tmp_path / "film.mp4"), "has the suffix .mp4; expected .webp or .gif"),
         ((path, "--film", film_file, "--camera", "roof"), "'roof' is not known"),
         ((path, "--seconds", "0"), "expected a positive number"),
     ]:
@@ -299,7 +299,7 @@ def test_a_damaged_file_is_read_or_refused_but_nothing_else(fallen: Any, tmp_pat
         path.write_bytes(content[: draw.randrange(len(content))] if draw.random() < 0.3 else content)
         try:
             Recording.read(path)
-        except NoRecording as error:
+        except UnusableRecording as error:
             refused += "is not a recording of an arena, or it is damaged" in str(error)
     assert refused > 40
 
@@ -307,5 +307,5 @@ def test_a_damaged_file_is_read_or_refused_but_nothing_else(fallen: Any, tmp_pat
 def test_another_robot_is_refused(fallen: Any) -> None:
     recording = Recording.read(fallen[0])
     other = replace(recording, joints=["third_arm", *recording.joints[1:]])
-    with pytest.raises(NoRecording, match=r"another robot.*third_arm"):
+    with pytest.raises(UnusableRecording, match=r"another robot.*third_arm"):
         RecordedBody(other)

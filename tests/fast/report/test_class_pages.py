@@ -129,7 +129,7 @@ def test_the_scores_are_a_drawing_that_can_also_be_heard(tmp_path):
     assert drawing["role"] == "img"
     assert words(drawing.find("title")) == "Scores of walk_to"
     said = words(drawing.find("desc"))
-    assert said == "submissions by points, % of those there are: 50–59: 2, 100: 1."
+    assert said == "submissions by points, % of the maximum: 50–59: 2, 100: 1."
     assert "3 graded, median 2 of 4 points" in section(page, "^walk_to$")
 
 

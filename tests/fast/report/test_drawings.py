@@ -62,7 +62,7 @@ def said(svg):
 def test_a_walk_has_its_speed_with_the_goals_moments_and_its_path_with_the_goals_place():
     speed, path = (said(svg) for svg in motion_svgs(walk(), "walk ahead"))
     assert speed == (
-        "How fast the robot was: walk ahead",
+        "Speed of the robot: walk ahead",
         "speed, m/s: 0.20 at first, 0.20 at last, 0.20 at most; time, s: 0.00 to 3.00. "
         "goal “a &lt;b&gt;”: at 0.50. cancel “a &lt;b&gt;”: at 2.00. “a &lt;b&gt;” ends CANCELED: at 2.50. "
         "5 feedback messages from 1.00 to 1.80.",
@@ -84,8 +84,8 @@ def test_a_failed_check_has_its_drawings_under_its_own_submission_and_verdict_on
     kept = Drawings(tmp_path).of(grade, SOURCES)
     assert [said(svg)[0] for svg in kept["walks"]] == [
         "walk ahead",
-        "How fast the robot was: walk ahead",
-        "Where the robot went, from above: walk ahead",
+        "Speed of the robot: walk ahead",
+        "Path of the robot, from above: walk ahead",
     ]
     later = CheckVerdict(**(vars(FAILED) | {"observed": "0.5 m"}))
     assert Drawings(tmp_path).of(Grade("walk_to", "anna", "namespaces", [later]), SOURCES) == {}

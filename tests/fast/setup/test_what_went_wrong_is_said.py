@@ -31,7 +31,7 @@ def test_a_full_disk(monkeypatch: pytest.MonkeyPatch, error: Exception) -> None:
 
 def test_a_folder_of_somebody_else(monkeypatch: pytest.MonkeyPatch) -> None:
     error = PermissionError(errno.EACCES, "Permission denied", "/opt/course/graded")
-    end_with(monkeypatch, error, r"^course: no permission for /opt/course/graded\.\nNext: choose a folder")
+    end_with(monkeypatch, error, r"^course: no permission for /opt/course/graded\.\nNext: give a folder")
 
 
 def end_with(monkeypatch: pytest.MonkeyPatch, error: Exception, sentence: str) -> None:

@@ -41,7 +41,7 @@ def test_what_failed_runs_once_more_without_the_rest(
     assert (tmp_path / "tries").read_text() == "xx"
     assert (tmp_path / "steady.log").read_text() == "x"
     printed = capfd.readouterr().out
-    assert "1 failed beside others and run again, alone:\n  test_some.py::test_at_first" in printed
+    assert "1 failed in parallel and run again, alone:\n  test_some.py::test_at_first" in printed
     assert (
         "passed alone, and should pass on a busy machine, too: test_some.py::test_at_first" in printed
     ) is passes

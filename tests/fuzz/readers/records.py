@@ -12,7 +12,7 @@ from typing import Any
 from hypothesis import strategies as st
 
 from autograder.classroom.batch.batch_record import BATCH, BatchRecord, Row, read_batch
-from autograder.classroom.batch.cache import GradeCache, Known
+from autograder.classroom.batch.cache import CachedGrade, GradeCache
 from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.effort import Effort
 from autograder.classroom.batch.records import GRADES, UnusableRecord, read_grades
@@ -73,7 +73,7 @@ def require_cached_or_none(data: bytes) -> None:
     submission = Submission(EXERCISE, "anna", {f"{EXERCISE}.py": "pass"})
     with tempfile.TemporaryDirectory() as folder:
         cache = GradeCache(Path(folder), ISOLATION)
-        cache.put(submission, exercise, 0, Known(_GRADE, _EFFORT))
+        cache.put(submission, exercise, 0, CachedGrade(_GRADE, _EFFORT))
         (path,) = Path(folder).rglob("*.json")
         path.write_bytes(data)
         known = cache.get(submission, exercise, 0)

@@ -14,7 +14,7 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from autograder.classroom.book.chapter_run import ChapterFailed, execute, processes_in
 from autograder.classroom.book.links import Links
 from autograder.classroom.book.reader_copy import reader_copy
-from autograder.classroom.book.still_widgets import LIVE, VIEW
+from autograder.classroom.book.still_widgets import VIEW, VIEW_CAPTION
 
 
 def write_chapter(file: Path, *sources: str) -> nbformat.NotebookNode:
@@ -45,7 +45,7 @@ def test_a_chapter_is_shown_with_its_outputs_and_the_last_picture_of_the_live_vi
         "data:image/jpeg;base64,/9j/" in output.get("data", {}).get("text/html", "")
         for output in outputs["cell-1"]
     )
-    assert LIVE in str(outputs["cell-1"])
+    assert VIEW_CAPTION in str(outputs["cell-1"])
     assert VIEW not in str(outputs)
     assert "widgets" not in copy.metadata
 

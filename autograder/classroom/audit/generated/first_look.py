@@ -20,13 +20,13 @@ from autograder.isolation.availability import available_isolation
 
 @dataclass(frozen=True)
 class GeneratedFault(KnownSubmission):
-    """A mutant as a faulty submission without a file; it has to fail at least one check, whichever that is."""
+    """A mutant as a faulty submission without a file. It must fail at least one check, no matter which."""
 
     mutant: Mutant = field(kw_only=True)
 
     @property
     def name(self) -> str:
-        """Its name in the record."""
+        """The mutant's name in the audit record."""
         return self.mutant.name
 
     def read(self) -> Submission:
@@ -37,24 +37,24 @@ class GeneratedFault(KnownSubmission):
 
 @dataclass(frozen=True)
 class Judged:
-    """A mutant with its grading."""
+    """A mutant and its grading."""
 
     mutant: Mutant
     run: AuditedRun
 
     @property
     def is_graded(self) -> bool:
-        """Whether there is a verdict."""
+        """Whether the grader could judge the mutant."""
         return self.run.grade.status == "graded"
 
     @property
     def noticed_by(self) -> CheckVerdict | None:
-        """The first check that failed, a visible one before any hidden one."""
+        """The first visible check that failed; if there is none, the first hidden check that failed."""
         failed = [check for check in self.run.grade.checks if check.status == "failed" and self.is_graded]
         return min(failed, key=lambda check: check.hidden, default=None)
 
 
-class _Plain(Exception):
+class _FirstFailureFound(Exception):
     """Raised to end the grading of a mutant whose first failing check is known."""
 
 
@@ -75,9 +75,10 @@ def first_look(
     arenas: SubmissionArenas | None = None,
     stop: Stop | None = None,
 ) -> AuditedRun:
-    """Grade a mutant until a visible check fails; a hidden one ends it when all visible ones are judged.
+    """Grade a mutant until a visible check fails, or until all visible checks have passed and a hidden check fails.
 
-    A failed check is not retried, since no points can be lost. Checks that were not judged by then are “not run”.
+    A failed check is not retried, because no student loses points here. The checks that were not judged before the end
+    are “not run”.
     """
     started = time.monotonic()
     verdicts: dict[str, CheckVerdict] = {}
@@ -87,13 +88,13 @@ def first_look(
         verdicts[verdict.id] = verdict
         failed = [one for one in verdicts.values() if one.status == "failed"]
         if any(not one.hidden for one in failed) or (failed and visible <= verdicts.keys()):
-            raise _Plain
+            raise _FirstFailureFound
 
     try:
         every = [check.id for check in exercise.checks]
         options = GradingOptions(seed + repetition, 1, scale, checks_without_retry=every, shortens=False)
         result = grade(known.read(), exercise, options, Watcher(report), arenas=arenas, stop=stop)
-    except _Plain:
+    except _FirstFailureFound:
         settled = {one.id: one for one in verdicts.values() if one.status != "error"}
         checks = [settled.get(check.id) or verdict_on(check, "not run") for check in exercise.checks]
         isolation = available_isolation().label

@@ -1,4 +1,4 @@
-"""The fields and constants of the interfaces that a program imports, by their names."""
+"""The fields and constants of the interfaces that a program imports, by name."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from typing import Any
 FLOATS = ("float", "double")
 PARTS = ("Request", "Response", "Goal", "Result", "Feedback")
 
-Interface = Any  # a class that rosidl generates carries no types
+Interface = Any  # the classes that rosidl generates have no type annotations
 
 
 class Interfaces:
-    """What the names in one program stand for.
+    """The interface classes that one program imports, with their fields and constants.
 
     Attributes:
         classes: the imported classes, by name.
-        types: the types of fields in ROS's words, by name; "" where two fields of one name have different ones.
+        types: the ROS type of each field, by the field's name; "" if fields of this name have different types.
     """
 
     def __init__(self, tree: ast.Module) -> None:
@@ -31,7 +31,7 @@ class Interfaces:
         self.types: dict[str, str] = {}
         self._constants: dict[str, dict[str, int]] = {}
         waiting = list(self.classes.values())
-        for one in waiting:  # grows as it goes
+        for one in waiting:  # the loop appends to this list
             inner = [getattr(one, part, None) for part in PARTS] + [*map(message_class, fields(one).values())]
             waiting += [new for new in inner if new and new not in waiting]
             for name, kind in fields(one).items():
@@ -40,25 +40,25 @@ class Interfaces:
             self._constants = dict.fromkeys(numbers, numbers) | self._constants
 
     def other_constants(self, name: str, most: int = 3) -> list[str]:
-        """Return a few constants that may be taken for one, nearest by value; none if no interface has it."""
+        """Return up to `most` constants that could be confused with `name`, nearest by value; [] if it is unknown."""
         numbers = self._constants.get(name, {})
         others = sorted(numbers, key=lambda other: (abs(numbers[other] - numbers[name]), other))
         return [other for other in others if other != name][:most]
 
 
 def fields(interface: Interface) -> dict[str, str]:
-    """Return the fields of a message, a request or another part with their types; none for anything else."""
+    """Return the fields and types of a message, request or other part of an interface; {} for anything else."""
     return dict(getattr(interface, "get_fields_and_field_types", dict)())
 
 
 def message_class(ros_type: str) -> Interface | None:
-    """Return the class of a field's type, such as geometry_msgs/Pose; None for a number, a text or a list."""
+    """Return the class of a field's type, such as geometry_msgs/Pose; None for a number, a string or a list."""
     package, slash, name = ros_type.partition("/")
     return getattr(importlib.import_module(f"{package}.msg"), name) if slash and name.isidentifier() else None
 
 
 def floats_in(ros_type: str, depth: int = 4) -> dict[str, str]:
-    """Return the dotted path and type of each number with a fraction that a message type holds."""
+    """Return the dotted path and type of each floating-point field in a message type."""
     found: dict[str, str] = {}
     for name, kind in fields(message_class(ros_type)).items() if depth else ():
         found |= {name: kind} if element_of(kind) in FLOATS else {}
@@ -67,11 +67,11 @@ def floats_in(ros_type: str, depth: int = 4) -> dict[str, str]:
 
 
 def element_of(ros_type: str) -> str:
-    """Return the type of the elements of a sequence or an array; any other type as it is."""
+    """Return the element type of a sequence or an array; any other type unchanged."""
     return ros_type.removeprefix("sequence<").split("[")[0].split(",")[0].rstrip(">")
 
 
 def _constants(interface: Interface) -> dict[str, int]:
-    """Return the whole numbers among the constants of a message class, which rosidl keeps in its metaclass."""
+    """Return the integer constants of a message class; rosidl keeps the constants in the metaclass."""
     names = [name for name in dir(type(interface)) if name.isupper()] if fields(interface) else []
     return {name: number for name in names if isinstance(number := getattr(interface, name), int)}

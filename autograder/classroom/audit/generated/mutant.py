@@ -1,4 +1,4 @@
-"""A correct submission with one mistake in it, and all that can be made of an exercise's correct submissions."""
+"""Makes mutants, which are correct submissions with one mistake each."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from autograder.engine.exercise import exercises_folder, file_names
 class Mutant:
     """A program made by an operator from the correct program `base`; `sentence` says what is wrong.
 
-    `name` is operator.function.hash.base. The hash is of the changed statement alone, so that names outlast edits of
-    other lines.
+    `name` is operator.function.hash.base. Only the changed statement is hashed, so the name stays the same when other
+    lines are edited.
     """
 
     name: str
@@ -32,18 +32,18 @@ class Mutant:
 
     @property
     def source(self) -> str:
-        """The program, without the comments of the correct one."""
+        """The source of the mutant, without comments."""
         return self.program.changed(self.edits)
 
     def diff(self, context: int = 3) -> list[str]:
-        """Return the lines of the unified diff from the correct program without its comments."""
+        """Return the lines of the unified diff between the correct program and the mutant, both without comments."""
         texts = (self.program.changed({}).splitlines(), self.source.splitlines())
         names = f"correct/{self.base.name}", self.name
         return list(difflib.unified_diff(*texts, *names, n=context, lineterm=""))
 
 
 def mutants_of_exercise(exercise: str) -> list[Mutant]:
-    """Return every mutant of the programs in <exercise>/known/correct; [] if students do not write a single program."""
+    """Return every mutant of the programs in <exercise>/known/correct; [] unless students write one Python file."""
     names = file_names(exercise)
     if len(names) != 1 or not names[0].endswith(".py"):
         return []
@@ -77,7 +77,7 @@ def mutants_of_program(base: Path) -> list[Mutant]:
 def _hash(head: str, edits: Edits) -> str:
     """Return a short hash of the first line of the changed statement and of the change."""
     words = [head, *(text for node, new in edits.items() for text in (ast.unparse(node), new))]
-    text = "\n".join(words).replace("lambda :", "lambda:")  # Python 3.10 writes a blank
+    text = "\n".join(words).replace("lambda :", "lambda:")  # Python 3.10 writes a space
     return hashlib.sha256(text.encode()).hexdigest()[:6]
 
 

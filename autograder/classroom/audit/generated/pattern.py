@@ -1,7 +1,7 @@
-"""Expressions that stand for many: in a pattern a single capital letter is any expression.
+"""Patterns that match expressions: a single capital letter in a pattern stands for any expression.
 
-`f(X, *R)` is a call of f, a.f or a.b.f with one argument or more; `**K` stands for all keywords. A name in a pattern
-matches whatever ends with it: `status` also `answer.status`.
+`f(X, *R)` matches a call of f, a.f or a.b.f with at least one argument. `**K` matches all keyword arguments. A name
+also matches a dotted name that ends with it, so `status` matches `answer.status`.
 """
 
 from __future__ import annotations
@@ -11,23 +11,23 @@ from typing import Any
 
 from autograder.classroom.audit.generated.program import last_name
 
-Bound = dict[str, Any]  # letters with the expression, or the list of them, that each stands for
+Bound = dict[str, Any]  # each letter with the expression, or the list of expressions, that it stands for
 
 
 def parsed(pattern: str) -> ast.expr:
-    """Return the pattern of a text."""
+    """Parse the text of a pattern."""
     return ast.parse(pattern, mode="eval").body
 
 
 def match(pattern: ast.expr, node: ast.expr) -> Bound | None:
-    """Return what the letters of a pattern stand for in a node; None if it does not match."""
+    """Return what the letters of a pattern stand for in a node; None if the node does not match."""
     bound: Bound = {}
     return bound if _matches(pattern, node, bound) else None
 
 
 def filled(replacement: str, bound: Bound) -> str:
-    """Return the source of an expression whose letters are replaced by what they stand for."""
-    return ast.unparse(_Filling(bound).visit(parsed(replacement)))
+    """Replace the letters in an expression by what they stand for, and return its source."""
+    return ast.unparse(_Substitution(bound).visit(parsed(replacement)))
 
 
 def _matches(pattern: Any, node: Any, bound: Bound) -> bool:
@@ -48,7 +48,7 @@ def _matches(pattern: Any, node: Any, bound: Bound) -> bool:
     return type(pattern) is type(node) and all(_matches(one, other, bound) for one, other in fields)
 
 
-class _Filling(ast.NodeTransformer):
+class _Substitution(ast.NodeTransformer):
     def __init__(self, bound: Bound) -> None:
         self._bound = bound
 

@@ -1,4 +1,4 @@
-"""A correct program as a tree, of which some nodes can be given another source."""
+"""The syntax tree of a correct program, whose nodes can be replaced by other source text."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from autograder.classroom.audit.generated.interfaces import Interfaces
 
 Named = ast.FunctionDef | ast.AsyncFunctionDef
 Function = Named | ast.Lambda
-Edits = dict[ast.AST, str]  # nodes of a program with the source that takes the place of each
+Edits = dict[ast.AST, str]  # each node to replace, with its new source
 
 _Node = TypeVar("_Node", bound=ast.AST)
-# What takes callbacks: the kind of each, by its place or keyword among the arguments.
-_TAKERS: dict[str, dict[int | str | None, str]] = {
+# The functions that take callbacks: the kind of each callback, by the position or keyword of its argument.
+_CALLBACK_ARGUMENTS: dict[str, dict[int | str | None, str]] = {
     "create_subscription": {2: "subscription", "callback": "subscription"},
     "create_service": {2: "service", "callback": "service"},
     "create_timer": {1: "timer", "callback": "timer"},
@@ -28,13 +28,13 @@ class Program:
     """The syntax tree of a program, with the parent of each node."""
 
     def __init__(self, source: str) -> None:
-        """Raises SyntaxError when the source is no Python."""
+        """Raises SyntaxError when the source is not valid Python."""
         self.tree = ast.parse(source)
         self.interfaces = Interfaces(self.tree)
         self._parents = {child: node for node in ast.walk(self.tree) for child in ast.iter_child_nodes(node)}
 
     def every(self, kind: type[_Node], inside: ast.AST | None = None) -> Iterator[_Node]:
-        """Yield the nodes of a kind in the order of the text."""
+        """Yield the nodes of a type, in source order."""
         node = inside or self.tree
         if isinstance(node, kind):
             yield node
@@ -48,11 +48,11 @@ class Program:
             yield node
 
     def parent(self, node: ast.AST) -> ast.AST:
-        """Return what a node is directly in."""
+        """Return the parent of a node."""
         return self._parents[node]
 
     def statement(self, node: ast.AST) -> ast.stmt:
-        """Return the innermost statement that a node is in or is."""
+        """Return the node itself if it is a statement, else the innermost statement around it."""
         return next(one for one in (node, *self.above(node)) if isinstance(one, ast.stmt))
 
     def functions(self, node: ast.AST) -> list[Function]:
@@ -64,7 +64,7 @@ class Program:
         return next((one.name for one in self.functions(node) if isinstance(one, Named)), "module")
 
     def without(self, element: ast.AST) -> Edits:
-        """Take an element out of a list, a keyword out of a call, a condition out of `and` or `or`."""
+        """Return the edit that removes an element of a list, a keyword of a call, or an operand of `and` or `or`."""
         parent = self.parent(element)
         smaller = copy.copy(parent)
         for name, value in ast.iter_fields(parent):
@@ -75,19 +75,19 @@ class Program:
         return {parent: ast.unparse(smaller)}
 
     def begun_with(self, function: Named, statements: str) -> Edits:
-        """Put statements at the beginning of a function, below its docstring."""
+        """Return the edit that inserts statements at the beginning of a function, below its docstring."""
         first = function.body[1 if ast.get_docstring(function) and len(function.body) > 1 else 0]
         return {first: f"{statements}\n{ast.unparse(first)}"}
 
     def changed(self, edits: Edits, inside: ast.AST | None = None) -> str:
-        """Return the source with the edits made, of the whole program or of one node."""
+        """Return the source of the whole program, or of one node, with the edits applied."""
         new = {id(node): _parsed(source, node) for node, source in edits.items()}
-        # deepcopy takes what it finds in its second argument for a copy that was made already.
+        # deepcopy's second argument maps ids of objects to finished copies: it uses the new nodes as these copies.
         return ast.unparse(copy.deepcopy(inside or self.tree, new))
 
 
 def last_name(node: ast.AST | None) -> str:
-    """Return the last part of a dotted name or of the name of what is called: "sleep" of time.sleep; "" of others."""
+    """Return the last part of a dotted name, or of a called function's name: "sleep" for time.sleep; else ""."""
     if isinstance(node, ast.Call):
         return last_name(node.func)
     if isinstance(node, ast.Attribute):
@@ -96,17 +96,17 @@ def last_name(node: ast.AST | None) -> str:
 
 
 def _parsed(source: str, node: ast.AST) -> ast.AST:
-    """Parse what takes the place of a node; of a statement it is a module, which may hold several."""
+    """Parse the new source of a node; in place of a statement it is a module, which may hold several statements."""
     return ast.parse(source) if isinstance(node, ast.stmt) else ast.parse(source, mode="eval").body
 
 
 def callbacks(program: Program, *kinds: str) -> Iterator[Named]:
-    """Yield the functions that are called for one of these kinds of events, each once, without lambdas."""
+    """Yield the named functions that are callbacks of these kinds, each once."""
     named = [one for one in program.every(ast.stmt) if isinstance(one, Named)]
     found: dict[Named, None] = {}
     for call in program.every(ast.Call):
         given = [*enumerate(call.args), *((word.arg, word.value) for word in call.keywords)]
-        taken = _TAKERS.get(last_name(call), {})
+        taken = _CALLBACK_ARGUMENTS.get(last_name(call), {})
         around = set(program.above(call))
         for name in [last_name(value) for place, value in given if taken.get(place) in kinds]:
             of_one_name = [one for one in named if one.name == name]

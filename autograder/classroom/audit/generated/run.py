@@ -18,9 +18,11 @@ from autograder.classroom.audit.known_submission import KNOWN, HeaderError
 from autograder.classroom.audit.run import AuditedRun, audit
 from autograder.engine.exercise import Exercise, exercises_folder
 
-GOAL, GOAL_OF_VISIBLE = 98, 75  # percent of mutants that lose points at all, and by visible checks alone
+GOAL_PERCENT = 98  # of the graded mutants should lose points
+VISIBLE_GOAL_PERCENT = 75  # of the graded mutants should lose points in visible checks
 EQUIVALENT = "equivalent.txt"  # in an exercise's known/
-USUAL, OF_ROBOTS = 60, 30  # mutants; where the robot moves a grading takes minutes
+DEFAULT_NUMBER = 60  # mutants to grade
+DEFAULT_NUMBER_WITH_ROBOT = 30  # mutants to grade if the robot moves, because each grading then takes minutes
 
 
 def audit_generated(
@@ -33,17 +35,17 @@ def audit_generated(
     jobs: int = 2,
     seed: int = 0,
 ) -> list[Judged]:
-    """Grade up to `number` mutants (None: the usual number), from each operator in turn; print and return them."""
+    """Grade up to `number` mutants (None: the default), chosen from each operator in turn; print and return them."""
     made = mutants_of_exercise(exercise.name)
     reasons = equivalents(exercise.name)
     mistakes = [mutant for mutant in made if not any(is_one_of(patterns, mutant) for patterns in reasons)]
-    chosen = selected(mistakes, number or usual_number(exercise), seed=seed, only=only)
+    chosen = selected(mistakes, number or default_number(exercise), seed=seed, only=only)
     faults = {mutant.name: as_fault(mutant, exercise) for mutant in chosen}
     judged: list[Judged] = []
 
-    def add(run: AuditedRun, is_kept: bool) -> None:
+    def add(run: AuditedRun, is_reused: bool) -> None:
         judged.append(Judged(faults[run.known.name].mutant, run))
-        place = f"{len(judged)} of {len(faults)}{', kept' if is_kept else ''}"
+        place = f"{len(judged)} of {len(faults)}{', reused' if is_reused else ''}"
         _print_judged(console, judged[-1], place)
 
     same = len(made) - len(mistakes)
@@ -52,7 +54,7 @@ def audit_generated(
     )
     for patterns in reasons:
         if not any(is_one_of(patterns, mutant) for mutant in made):
-            console.print(f"{KNOWN}/{EQUIVALENT}: no mutant is like “{patterns}” any more", markup=False)
+            console.print(f"{KNOWN}/{EQUIVALENT}: no mutant matches “{patterns}” any more", markup=False)
     audit([*faults.values()], exercise, record, add, jobs=jobs, seed=seed, grade_one=first_look)
     if judged:
         console.print(_table(mistakes, judged))
@@ -67,25 +69,25 @@ def mutant_named(exercise: str, name: str) -> Mutant:
         if mutant.name == name:
             return mutant
     raise HeaderError(
-        f"there is no mutant {name} of {exercise}; ./course audit {exercise} --generated names them"
+        f"there is no mutant {name} of {exercise}; ./course audit {exercise} --generated prints the names"
     )
 
 
 def figures(judged: Sequence[Judged]) -> list[str]:
-    """Return how many lost points, and how many by visible checks alone, each as a line."""
+    """Return lines that say how many mutants lost points, and how many lost points in visible checks."""
     graded = [one for one in judged if one.is_graded]
     noticed = [check for one in graded if (check := one.noticed_by)]
     visible = [check for check in noticed if not check.hidden]
     whole = len(graded) or 1
     return [
-        f"{len(noticed)} of {len(graded)} lost points: {100 * len(noticed) / whole:.0f} % (goal {GOAL} %)",
-        f"{len(visible)} by visible checks: {100 * len(visible) / whole:.0f} % (goal {GOAL_OF_VISIBLE} %)",
+        f"{len(noticed)} of {len(graded)} lost points: {100 * len(noticed) / whole:.0f} % (goal {GOAL_PERCENT} %)",
+        f"{len(visible)} by visible checks: {100 * len(visible) / whole:.0f} % (goal {VISIBLE_GOAL_PERCENT} %)",
         *([f"{len(judged) - len(graded)} could not be graded"] if len(graded) < len(judged) else []),
     ]
 
 
 def survivors(exercise: str, judged: Sequence[Judged]) -> list[str]:
-    """Return the diffs of the mutants with full marks or without a grade, as lines, and what to do about them."""
+    """Return the diffs of the mutants that kept full marks or were not graded, and what to do about them, as lines."""
     lines = []
     for one in judged:
         if not one.noticed_by:
@@ -126,10 +128,10 @@ def _table(mistakes: Sequence[Mutant], judged: Sequence[Judged]) -> Table:
     return table
 
 
-def usual_number(exercise: Exercise) -> int:
+def default_number(exercise: Exercise) -> int:
     """Return the default number of mutants to grade."""
     is_light = all(scenario.is_light for check in exercise.checks for scenario in check.on)
-    return USUAL if is_light else OF_ROBOTS
+    return DEFAULT_NUMBER if is_light else DEFAULT_NUMBER_WITH_ROBOT
 
 
 def equivalents(exercise: str) -> dict[str, str]:
@@ -159,9 +161,10 @@ def is_one_of(patterns: str, mutant: Mutant) -> bool:
 
 
 def selected(mutants: Sequence[Mutant], number: int, *, seed: int = 0, only: str = "*") -> list[Mutant]:
-    """Return up to `number` mutants whose name matches: of each operator in turn, from each base in turn.
+    """Return up to `number` mutants whose name matches `only`: from each operator in turn, from each base in turn.
 
-    The order within an operator is drawn by the seed and each mutant's own name, so that one more changes no other.
+    The order within an operator depends only on the seed and on each mutant's name, so that a new mutant does not
+    change the order of the others.
     """
     waiting: dict[str, list[Mutant]] = {}
     for mutant in sorted(mutants, key=lambda mutant: _drawn(mutant, seed)):

@@ -1,4 +1,4 @@
-"""Sphinx's settings of the book. Nothing in its pages comes from another site, so it is read without a network."""
+"""Sphinx's settings for the book. Its pages load nothing from other sites, so that they can be read offline."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ html_theme = "furo"
 html_static_path = ["static"]
 html_css_files = ["book.css"]
 html_copy_source = False
-html_show_search_summary = False  # it would fetch pages, which browsers refuse for files on the disk
+html_show_search_summary = False  # a summary fetches pages, which browsers forbid for local files
 html_math_renderer = "mathml"
 
 myst_enable_extensions = ["dollarmath"]
@@ -30,7 +30,7 @@ suppress_warnings = ["mystnb.unknown_mime_type", "misc.highlighting_failure"]
 
 
 def setup(sphinx: Sphinx) -> None:
-    """Register "mathml": formulas that browsers draw themselves, without a script or a font from elsewhere."""
+    """Register "mathml": browsers render these formulas without a script or a font."""
     sphinx.add_html_math_renderer("mathml", (_inline, None), (_block, None))
 
 

@@ -1,4 +1,4 @@
-"""The operators: each finds the places of a program where it applies, and makes the mistake that its sentence names."""
+"""The mutation operators: each finds where it applies in a program, and makes the mistake that its sentence names."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from autograder.classroom.audit.generated.program import Edits, Program
 
 Operator = Callable[[Program], Iterator[Edits]]
 
-# By name, each with its sentence. Where two make the same program it is the first one's: the general ones come last.
+# Each operator's name, with its sentence and function. If two operators make the same program, the mutant belongs to
+# the first one, so the general operators come last.
 OPERATORS: dict[str, tuple[str, Operator]] = {
     **{name: (words, partial(rewritten, instead=each)) for name, (words, each) in rewrites().items()},
     **{name: (words, partial(with_wrong_numbers, changes=each)) for name, (words, each) in NUMBERS.items()},

@@ -1,4 +1,4 @@
-"""Mistakes with time: waits where none may be, limits of another size, deadlines that begin at another event."""
+"""Mistakes with time: a callback that sleeps, a limit of another size, a deadline that starts at another event."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ from collections.abc import Iterator
 
 from autograder.classroom.audit.generated.program import Edits, Program, callbacks, last_name
 
-_WAITS = (0.7, 2.5)  # s
+_SLEEP_TIMES = (0.7, 2.5)  # s
 _READS_A_CLOCK = re.compile(r"\b(monotonic|time|_?now|perf_counter)\(")
-_TAKING_SECONDS = {"sleep", "wait", "create_timer", "Duration", "create_rate"}
+_CALLS_WITH_SECONDS = {"sleep", "wait", "create_timer", "Duration", "create_rate"}
 
 
 def waits_in_a_callback(program: Program) -> Iterator[Edits]:
     """A callback sleeps before it does its work."""
     for callback in callbacks(program, "service", "goal", "cancel", "subscription"):
-        for seconds in _WAITS:
+        for seconds in _SLEEP_TIMES:
             yield program.begun_with(callback, f"__import__('time').sleep({seconds})")
 
 
 def halves_or_doubles(program: Program) -> Iterator[Edits]:
-    """A limit, a deadline or a number of things is half or double what it should be."""
+    """A limit, a deadline or a count is half or double what it should be."""
     for constant in program.every(ast.Constant):
         number = constant.value
         if isinstance(number, bool) or not isinstance(number, int | float) or not number:
@@ -32,7 +32,7 @@ def halves_or_doubles(program: Program) -> Iterator[Edits]:
 
 
 def restarts_the_deadline(program: Program) -> Iterator[Edits]:
-    """A deadline is not begun anew at its event, or begins anew at one that does not count."""
+    """A deadline is not restarted at its event, or is restarted at another event."""
     for statement in program.every(ast.Assign):
         target, text, around = statement.targets[0], ast.unparse(statement), program.functions(statement)
         if not _READS_A_CLOCK.search(text) or not around or last_name(target) == "stamp":
@@ -51,12 +51,12 @@ def restarts_the_deadline(program: Program) -> Iterator[Edits]:
 
 
 def _is_a_limit(program: Program, constant: ast.Constant) -> bool:
-    """Whether a number is a constant of the module, one to compare with, or a time to wait."""
+    """Whether a number is a constant of the module, an operand of a comparison, or a time to wait."""
     parent, *above = program.above(constant)
-    if isinstance(parent, ast.keyword):  # spin_once is called again and again
+    if isinstance(parent, ast.keyword):  # spin_once is called in a loop, so its timeout limits nothing
         return parent.arg in ("timeout_sec", "seconds") and last_name(above[0]) != "spin_once"
     if isinstance(parent, ast.Call):
-        return last_name(parent) in _TAKING_SECONDS and constant in parent.args[:1]
+        return last_name(parent) in _CALLS_WITH_SECONDS and constant in parent.args[:1]
     in_module = isinstance(parent, ast.Assign) and not program.functions(parent)
     return isinstance(parent, ast.Compare) or in_module
 

@@ -1,4 +1,4 @@
-"""The prepared state of a batch: its locked output folder, isolation, workers, seeds and record."""
+"""Prepares a batch: locks its output folder, starts the workers, chooses the seeds and begins its record."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from autograder.classroom.batch.folder_lock import locked
 from autograder.classroom.batch.records import GRADES, read_grades
 from autograder.classroom.batch.request import BatchRequest
 from autograder.classroom.batch.runner import BatchRunner, BatchWatcher, Graded
-from autograder.classroom.batch.seeds import Seeds, drawn_seed, seed_of_what_was_handed_in
+from autograder.classroom.batch.seeds import Seeds, drawn_seed, seed_of_submissions
 from autograder.classroom.batch.selection import require_seed
 from autograder.classroom.batch.version import commit_of
 from autograder.classroom.class_grading.progress import BatchProgress
@@ -31,12 +31,12 @@ from ros_runtime.project import PROJECT
 
 
 @dataclass(frozen=True)
-class Setting:
+class PreparedBatch:
     """A prepared batch.
 
     Attributes:
         before: grades in the output folder, kept for submissions that are not graded again.
-        record: the batch's record at its beginning.
+        record: the batch's record when grading begins.
     """
 
     console: Console
@@ -48,7 +48,7 @@ class Setting:
     record: BatchRecord
 
     def graded(self, works: Iterable[Work | None]) -> Generator[Graded, None, None]:
-        """Yield each submission when it is graded (`BatchRunner.run`), and show the progress meanwhile."""
+        """Yield each submission as soon as it is graded (`BatchRunner.run`), and show the progress."""
         request, cluster = self.request, self.cluster
         with BatchProgress(self.console, elsewhere=cluster.size if cluster else 0) as progress:
             runner = BatchRunner(
@@ -71,15 +71,17 @@ class Setting:
 
 
 @contextmanager
-def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> Iterator[Setting]:
-    """Lock the output folder, start the workers and print their isolation; `works`: of the whole class.
+def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> Iterator[PreparedBatch]:
+    """Lock the output folder, start the workers and print their isolation.
+
+    `works` are the submissions of the whole class.
 
     Raises:
         FolderInUse: another process grades into the output folder.
-        HiddenChecksRefused: students could read the checks here.
-        NoCluster: there is none at the address.
-        OtherSeed: grades that are to stay were given with another seed.
-        UnusableRecord: those grades cannot be read.
+        HiddenChecksRefused: students could read the checks on this machine.
+        NoCluster: there is no cluster at the given address.
+        OtherSeed: grades that are kept have another seed.
+        UnusableRecord: grades that are kept cannot be read.
     """
     if (
         not request.dask and available_isolation().trusted
@@ -90,13 +92,13 @@ def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> 
         dask_cluster(request.dask) if request.dask else nullcontext() as cluster,
     ):
         record = read_batch(request.out)
-        needs_grades = request.keeps_others or (request.goes_on and not record)
+        needs_grades = request.keeps_others or (request.continues_batch and not record)
         there = read_grades(request.out / GRADES) if needs_grades else []
         seeds = choose_seeds(request, record, there, works)
         before = there if request.keeps_others else []
         require_seed(before, seeds)
         isolation = cluster.isolation if cluster else available_isolation()
-        _tell(console, isolation, cluster)
+        _print_isolation(console, isolation, cluster)
         begun = BatchRecord(
             state="running",
             began=utc_now(),
@@ -106,23 +108,23 @@ def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> 
             isolation=isolation.label,
             jobs=cluster.size if cluster else request.jobs,
             cluster=request.dask or "",
-            shard=f"{request.shard.number}/{request.shard.of}" if request.shard else "",
+            shard=f"{request.shard.number}/{request.shard.total}" if request.shard else "",
             toolkit=commit_of(PROJECT),
             course="" if exercises_folder().is_relative_to(PROJECT) else commit_of(exercises_folder()),
-            rows=record.rows if record and request.goes_on else (),
+            rows=record.rows if record and request.continues_batch else (),
         )
-        yield Setting(console, request, isolation, cluster, seeds, before, begun)
+        yield PreparedBatch(console, request, isolation, cluster, seeds, before, begun)
 
 
-def _tell(console: Console, isolation: Isolation, cluster: Cluster | None) -> None:
+def _print_isolation(console: Console, isolation: Isolation, cluster: Cluster | None) -> None:
     if cluster:
         console.print(f"{cluster.size} workers, isolation: {isolation.label}", style="dim")
         for line in cluster.left_out:
             console.print(line, style="yellow", markup=False)
     if not isolation.trusted:
         console.print(
-            f"No isolation: {isolation.reason}. Only visible checks are made and the grades are marked untrusted; run "
-            "this only with submissions you trust.",
+            f"No isolation: {isolation.reason}. Only visible checks are run, and grades are marked untrusted; grade "
+            "only submissions that you trust.",
             style="yellow",
             markup=False,
         )
@@ -141,18 +143,18 @@ def choose_seeds(
     """
     if request.seed is not None:
         return Seeds(request.seed, request.seed_per_student)
-    if request.goes_on and before:
+    if request.continues_batch and before:
         return replace(before.seeds, per_student=before.seed_per_student or request.seed_per_student)
-    if request.goes_on and (one := _one_seed(grades)) is not None and not request.seed_per_student:
+    if request.continues_batch and (one := _one_seed(grades)) is not None and not request.seed_per_student:
         return Seeds(one)
     if request.shard:  # all machines must compute the same seed
-        return Seeds(seed_of_what_was_handed_in(works), request.seed_per_student)
+        return Seeds(seed_of_submissions(works), request.seed_per_student)
     return Seeds(
         drawn_seed(), request.seed_per_student, per_submission=request.watch and not request.seed_per_student
     )
 
 
 def _one_seed(grades: Sequence[Grade]) -> int | None:
-    """The common seed of all grades; None if they differ."""
+    """Return the common seed of all grades; None if their seeds differ."""
     seeds = {grade.seed for grade in grades if grade.seed is not None}
     return seeds.pop() if len(seeds) == 1 else None
