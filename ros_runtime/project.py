@@ -6,6 +6,6 @@ import os
 from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parents[1]
-# If several students share a read-only installation, this variable names each one's own folder of notebooks.
+# If several students share a read-only installation, this variable names each student's folder of notebooks.
 WORK_VARIABLE = "COURSE_WORK"
 WORK = Path(os.environ.get(WORK_VARIABLE) or PROJECT)

@@ -10,7 +10,7 @@ from typing import Protocol
 
 import mujoco
 
-from ros_runtime.workarounds.mujoco_web_viewer import LOOPBACK, STARTED_WITHIN, launch_web_viewer
+from ros_runtime.workarounds.mujoco_web_viewer import LOOPBACK, START_TIMEOUT, launch_web_viewer
 
 FRAMES = 25.0  # a second, real
 
@@ -79,7 +79,7 @@ def _following_camera(model: mujoco.MjModel) -> mujoco.MjvCamera:
 
 
 def _wait_for_the_server(port: int) -> None:
-    end = time.monotonic() + STARTED_WITHIN
+    end = time.monotonic() + START_TIMEOUT
     while True:
         try:
             return create_connection((LOOPBACK, port), timeout=1.0).close()

@@ -171,7 +171,7 @@ def test_a_wrong_definition_is_reported_without_a_build(tmp_path: Path) -> None:
                 "file": "Go.srv",
                 "line": 1,
                 "text": "float speed",
-                "wrong": "float is no type of ROS 2",
+                "wrong": "float is not a type of ROS 2",
                 "expected": "float64",
             }
         ],

@@ -29,7 +29,7 @@ from ros_runtime.recorded_client.conversation import Conversation
 from ros_runtime.recorded_client.goal import Goal
 from ros_runtime.recorded_client.service_client import ServiceClient
 
-NOBODYS = bytes(15) + b"n"
+UNKNOWN_ID = bytes(15) + b"n"
 SOON = 0.01  # s
 
 
@@ -162,7 +162,7 @@ def test_the_size_of_a_message_is_seen_without_unpacking_it(fields: dict[str, An
 def test_feedback_for_nobodys_goals_takes_no_room_from_that_of_real_ones(log: ArenaLog) -> None:
     walking = Walking(log)
     for _ in range(MOST_OF_NOBODYS + 600):
-        walking.on_feedback(walking.feedback(goal_id=NOBODYS))
+        walking.on_feedback(walking.feedback(goal_id=UNKNOWN_ID))
     walking.on_feedback(walking.feedback())
     assert log.count(ev.FeedbackReceived, goal="walk") == len(walking.goal.feedback) == 1
     assert dropped(log) == [(ev.FeedbackReceived.kind, 600)]
@@ -189,7 +189,7 @@ def test_no_bytes_whatever_stop_the_client(log: ArenaLog, seed: int) -> None:
     walking = Walking(log)
     chance = random.Random(seed)
     for _ in range(400):
-        data = bytearray(chance.choice((walking.feedback(), walking.statuses(walking.goal.id, NOBODYS))))
+        data = bytearray(chance.choice((walking.feedback(), walking.statuses(walking.goal.id, UNKNOWN_ID))))
         for _ in range(chance.randrange(8)):
             data[chance.randrange(len(data))] = chance.randrange(256)
         cut = bytes(data[: chance.randrange(len(data) + 1)])

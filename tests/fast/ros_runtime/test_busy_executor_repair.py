@@ -82,7 +82,7 @@ def test_starting_python_imports_nothing_heavy(tmp_path):
 
 
 @affected
-def test_it_rests_while_all_workers_are_busy_and_messages_arrive():
+def test_the_spinning_thread_sleeps_while_all_workers_are_busy_and_messages_arrive():
     repaired = run("all_workers_sleep_while_messages_arrive")
     assert repaired["load"] < 0.15
     assert repaired["received"] == 20

@@ -65,7 +65,7 @@ def test_a_fact_that_says_nothing_is_missing(fact: str, text: str) -> None:
 
 def test_a_wire_needs_no_qos_and_says_what_runs_through_it() -> None:
     assert missing(link("wire", "24 V", qos="")) == []
-    assert missing(link("wire", "")) == ["type is missing: say what runs through the wire"]
+    assert missing(link("wire", "")) == ["type is missing: say what the wire carries"]
 
 
 @pytest.mark.parametrize(
@@ -98,7 +98,7 @@ def test_a_type_of_another_kind_is_named(pattern: str, type: str, kind: str) -> 
 
 
 def test_a_word_that_is_no_pattern_is_named() -> None:
-    assert missing(link("stream"))[0] == "pattern: 'stream' is none of topic, service, action, wire"
+    assert missing(link("stream"))[0] == "pattern: expected one of topic, service, action, wire, got 'stream'"
 
 
 @pytest.mark.parametrize(
@@ -106,7 +106,7 @@ def test_a_word_that_is_no_pattern_is_named() -> None:
     [
         ("camera to finder", "line 1: expected a link such as"),
         ("a -> b : topic x/msg/Y\n  saftey: none", "line 2: expected one of qos, rate, failure, safety"),
-        ("a -> b : topic x/msg/Y\n  rate: 1 Hz\n  rate: 2 Hz", "line 3: a -> b has rate already"),
+        ("a -> b : topic x/msg/Y\n  rate: 1 Hz\n  rate: 2 Hz", "line 3: a -> b already has rate"),
     ],
 )
 def test_a_line_that_cannot_be_read_is_named(text: str, problem: str) -> None:

@@ -31,7 +31,7 @@ def test_a_sound_node_ends_well(scenario):
 
 @pytest.mark.skipif(not needs_repair(installed_version()), reason="this rclpy is not repaired")
 @pytest.mark.parametrize("scenario", FAULTS)
-def test_without_the_repair_it_does_not(scenario):
+def test_without_the_repair_the_node_fails(scenario):
     done = run_scenario(SCENARIOS, scenario, repairs="off")
     assert FAULTS[scenario] in done.stderr, "is the repair still needed?"
     assert done.returncode == 1
