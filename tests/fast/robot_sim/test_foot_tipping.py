@@ -48,11 +48,11 @@ def test_a_sole_on_a_slope_does_not_tip():
 def test_the_slope_is_believed_slowly_and_within_reason():
     slope = FloorSlope(0.005)
     for _ in range(4):
-        slope.feel(leaning(-0.06, 0.0))
+        slope.update(leaning(-0.06, 0.0))
     assert slope.estimate() == (0.0, 0.0)
     for _ in range(400):
-        slope.feel(leaning(-0.06, 0.0))
+        slope.update(leaning(-0.06, 0.0))
     assert slope.estimate() == (pytest.approx(0.06, rel=0.01), pytest.approx(0.0))
     for _ in range(400):
-        slope.feel(leaning(-0.3, -0.3))
+        slope.update(leaning(-0.3, -0.3))
     assert math.hypot(*slope.estimate()) == pytest.approx(0.09)

@@ -120,7 +120,7 @@ def test_a_phase_that_cannot_end_is_told(humanoid):
     [
         (lambda robot: robot.move_body(0.0), "another command came"),
         (lambda robot: robot.crouch_to(0.5), "another command came"),
-        (lambda robot: robot.walk_to(0.5, 0.0, 0.0), "it was told to walk"),
+        (lambda robot: robot.walk_to(0.5, 0.0, 0.0), "a command to walk came"),
         (lambda robot: robot.set_motor_power(False), "the motors went off"),
     ],
 )

@@ -165,7 +165,10 @@ def test_an_error_is_reported_on_stderr(capsys: pytest.CaptureFixture[str]) -> N
     ("words", "error_text"),
     [
         (["service", "call", "/add", "std_srvs/srv/Nothing"], "The passed service type is invalid"),
-        (["service", "call", "/add", "std_msgs/msg/String"], "std_msgs/msg/String is no service"),
+        (
+            ["service", "call", "/add", "std_msgs/msg/String"],
+            "std_msgs/msg/String is of kind msg, not srv",
+        ),
         (["topic", "pub", "/text", "String"], "expected a name such as geometry_msgs/msg/Twist"),
         (["action", "send_goal", "/walk", "std_srvs/srv/SetBool"], "The passed action type is invalid"),
     ],
