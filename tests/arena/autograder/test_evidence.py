@@ -185,7 +185,7 @@ def require_a_verdict(what, verdict):
 
 
 @pytest.mark.parametrize("exercise", EXERCISES)
-def test_whole_transcripts_have_the_verdicts_that_are_known(exercise):
+def test_complete_transcripts_have_their_known_verdicts(exercise):
     known = {known.path.stem: known for known in known_submissions(exercise)}
     for case in recorded(exercise):
         submission = known[case.submission]
@@ -221,7 +221,7 @@ def own_doing(what):
 
 
 @pytest.mark.parametrize("exercise", EXERCISES)
-def test_a_flood_or_a_record_that_breaks_off_never_passes(exercise):
+def test_a_flood_or_a_truncated_record_never_passes(exercise):
     for case in recorded(exercise):
         broken_off = [judged for judged in changed(case, prefixes) if "to its end" not in judged[0]]
         assert broken_off
@@ -241,7 +241,7 @@ def test_a_program_that_leaves_at_any_moment_is_judged(exercise):
 
 
 @pytest.mark.parametrize("exercise", EXERCISES)
-def test_what_ends_before_something_that_is_needed_does_not_pass(exercise):
+def test_a_record_that_ends_before_a_needed_event_does_not_pass(exercise):
     for case in recorded(exercise):
         if verdict(case).status == "passed":
             needed = [

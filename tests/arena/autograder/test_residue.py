@@ -56,7 +56,7 @@ def test_hostile_submissions_leave_nothing_and_change_no_other_grade() -> None:
     assert audit_one(honest, few).grade.all_passed
 
 
-def test_each_kind_of_residue_is_seen() -> None:
+def test_each_kind_of_residue_is_detected() -> None:
     with leftovers(patience=0.2) as left:
         kept = [subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)]
         folder = Path(tempfile.mkdtemp(prefix=f"arena-{os.getpid()}-", dir="/tmp"))
@@ -71,7 +71,7 @@ def test_each_kind_of_residue_is_seen() -> None:
             process.communicate()
 
 
-def test_an_orphan_is_seen() -> None:
+def test_an_orphan_process_is_detected() -> None:
     orphan = "import os, time\nif os.fork() == 0:\n    os.setsid(); time.sleep(60)"
     with leftovers(patience=0.2) as left:
         subprocess.run([sys.executable, "-c", orphan], check=True)

@@ -63,7 +63,7 @@ rclpy.spin(node)
 """
 
 
-def test_a_server_meets_what_the_stage_offers_and_is_heard(tmp_path) -> None:
+def test_a_server_uses_the_stages_service_and_topic_and_its_messages_are_recorded(tmp_path) -> None:
     (tmp_path / "scenarios.py").write_text(SCENARIOS)
     exercise = Exercise(NAME, tmp_path, (), False)
     scenario = Scenario("asks_and_tells", robot=None)

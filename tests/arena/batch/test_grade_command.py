@@ -95,7 +95,7 @@ def class_rows(out: Path) -> dict[str, str]:
     return {row.find("th").get_text(): str(row) for row in rows}
 
 
-def test_the_reference_gets_full_marks_the_starter_some_and_a_second_run_goes_on(tmp_path):
+def test_the_reference_gets_full_marks_the_starter_some_and_a_second_run_resumes(tmp_path):
     submitted, out = tmp_path / "submitted", tmp_path / "graded"
     hand_in(submitted, "anna", (ROOT / "solutions" / NOTEBOOK).read_bytes())
     hand_in(submitted, "bert", (ROOT / "exercises" / NOTEBOOK).read_bytes())

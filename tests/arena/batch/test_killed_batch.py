@@ -66,7 +66,7 @@ with open(folder + "/statuses", "w") as file:
 """
 
 
-def test_ten_kills_lose_and_double_nothing(tmp_path: Path) -> None:
+def test_after_ten_kills_no_grade_is_lost_or_duplicated(tmp_path: Path) -> None:
     for student in STUDENTS:
         (tmp_path / "submitted" / student).mkdir(parents=True)
         (tmp_path / "submitted" / student / f"{EXERCISE}.py").write_text(f"name = {student!r}\n")

@@ -120,7 +120,7 @@ def scores(folder: Path) -> dict[str, float]:
     )
 
 
-def test_the_latest_of_what_is_handed_in_counts_and_a_second_run_goes_on(tmp_path: Path) -> None:
+def test_the_latest_submission_counts_and_a_second_run_resumes(tmp_path: Path) -> None:
     with watching(tmp_path) as watcher:
         hand_in(tmp_path, "anna", "slow and wrong")
         until(watcher, lambda: in_work(tmp_path))
@@ -155,7 +155,7 @@ def test_the_latest_of_what_is_handed_in_counts_and_a_second_run_goes_on(tmp_pat
     assert record(tmp_path)["seed"] == first["seed"]
 
 
-def test_ctrl_c_ends_what_is_in_work_and_says_what_has_no_grade(tmp_path: Path) -> None:
+def test_ctrl_c_ends_running_gradings_and_names_submissions_without_a_grade(tmp_path: Path) -> None:
     with watching(tmp_path, "--exercise", EXERCISE) as watcher:
         hand_in(tmp_path, "anna", "slow")
         until(watcher, lambda: in_work(tmp_path))
@@ -175,7 +175,7 @@ def test_ctrl_c_ends_what_is_in_work_and_says_what_has_no_grade(tmp_path: Path) 
         (["--watch", "here", "--shard", "1/2"], "give only one"),
     ],
 )
-def test_what_cannot_be_watched_is_an_unusable_argument(
+def test_a_folder_that_cannot_be_watched_is_an_unusable_argument(
     tmp_path: Path, arguments: list[str], words: str
 ) -> None:
     (tmp_path / "here").mkdir()

@@ -180,7 +180,7 @@ def _content(path: Path) -> bytes:
         return b""
 
 
-def test_what_cannot_be_read_is_the_students_to_mend(autograder: Path) -> None:
+def test_an_unreadable_submission_is_the_students_failure(autograder: Path) -> None:
     graded = run(autograder, "ab\0cd")
     assert graded.status == 0, graded.said
     assert graded.results["score"] == 0

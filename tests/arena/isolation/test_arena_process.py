@@ -111,7 +111,7 @@ def test_a_caller_can_end_an_arena(kind: Kind) -> None:
     assert arena.poll() is report
 
 
-def test_a_command_that_dies_of_a_signal_is_reported_as_a_shell_would(kind: Kind) -> None:
+def test_a_command_killed_by_a_signal_has_the_exit_status_of_a_shell(kind: Kind) -> None:
     assert run_shell("kill -KILL $$", kind).exit_code == 128 + signal.SIGKILL
 
 
@@ -185,7 +185,7 @@ def test_an_arena_lives_on_when_the_thread_that_started_it_ends(kind: Kind) -> N
     assert arena.wait(30).stdout.text == "alive\n"
 
 
-def test_arenas_side_by_side_do_not_mix(kind: Kind) -> None:
+def test_parallel_arenas_are_separate(kind: Kind) -> None:
     arenas = [ArenaProcess(ArenaSpec(["/bin/echo", str(number)]), kind) for number in range(4)]
     assert [arena.wait(30).stdout.text for arena in arenas] == ["0\n", "1\n", "2\n", "3\n"]
 

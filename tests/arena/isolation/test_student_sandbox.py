@@ -46,7 +46,7 @@ print(json.dumps([len(pids), os.getpid(), os.getppid(), os.listdir("/proc/1")]))
     assert known == []  # neither its command line, which has paths of the host, nor its memory
 
 
-def test_memory_that_no_size_shows_cannot_be_had(namespaces: Kind) -> None:
+def test_memory_outside_of_the_measured_size_cannot_be_allocated(namespaces: Kind) -> None:
     code = """
 import errno, json, mmap, os
 refused = []
@@ -88,7 +88,7 @@ with socket.create_server(("127.0.0.1", 0)) as server:
     assert run.stdout == "['lo']\nhello\nNetwork is unreachable\n"
 
 
-def test_system_calls_that_it_has_no_business_with_are_refused(namespaces: Kind) -> None:
+def test_system_calls_that_it_does_not_need_are_refused(namespaces: Kind) -> None:
     code = """
 import ctypes, errno, json, os, socket
 libc = ctypes.CDLL(None, use_errno=True)
@@ -183,7 +183,7 @@ print(json.dumps([fill("/tmp"), fill("/dev/shm")]))
     assert in_shared_memory <= 4
 
 
-def test_a_fork_bomb_is_bounded_and_the_arena_goes_on(namespaces: Kind) -> None:
+def test_a_fork_bomb_is_bounded_and_the_arena_continues(namespaces: Kind) -> None:
     code = """
 import os, time
 children = 0

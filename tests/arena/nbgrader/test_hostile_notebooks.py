@@ -190,7 +190,7 @@ def test_of_two_solution_cells_the_one_that_was_graded_is_shown(gradebook, tmp_p
     ],
     ids=["no JSON", "empty", "cells of numbers", "no solution cell", "half a character"],
 )
-def test_what_cannot_be_read_is_told_to_the_student(gradebook, tmp_path, content):
+def test_an_unreadable_notebook_is_reported_to_the_student(gradebook, tmp_path, content):
     handed_in(tmp_path / "submitted", "anna", content)
     (work,) = collect(tmp_path / "submitted").works
     with pytest.raises(UnusableSubmission) as problem:

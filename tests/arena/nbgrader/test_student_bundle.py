@@ -154,7 +154,7 @@ def test_its_readme_names_only_commands_that_students_have(unpacked):
     assert all((unpacked / picture).exists() for picture in pictures)
 
 
-def test_what_cells_have_written_beside_the_chapters_stays_here(unpacked):
+def test_files_written_by_cells_are_not_in_the_archive(unpacked):
     beside = [
         path for path in (unpacked / "chapters").rglob("*") if "support" not in path.parts and path.is_file()
     ]
@@ -184,7 +184,7 @@ def lines_of_ci(repository: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("right", [True, False], ids=["right", "wrong"])
-def test_the_lines_of_ci_tell_a_right_notebook_from_a_wrong_one(repository, right):
+def test_the_ci_commands_distinguish_a_correct_notebook_from_a_wrong_one(repository, right):
     notebook = repository / "exercises/patterns/patterns.ipynb"
     if right:
         program = (ROOT / "solutions/patterns/known/correct/lines_of_text.py").read_text()
@@ -219,7 +219,7 @@ def test_it_is_small_and_the_same_every_time(archive, tmp_path):
 
 
 @pytest.mark.parametrize("secret", ["### BEGIN SOLUTION", *hidden_check_ids()[:2]])
-def test_a_file_that_gives_something_away_stops_the_release(tmp_path, secret):
+def test_a_file_with_a_solution_or_hidden_check_stops_the_release(tmp_path, secret):
     leaking = tmp_path / "notes.md"
     leaking.write_text(f"by the way: {secret}\n")
     with pytest.raises(Leak, match=r"chapters/notes\.md"):

@@ -81,7 +81,9 @@ def test_a_replay_shows_the_seconds_around_it(recorded: tuple[Grade, Path]) -> N
     assert len(shown) > 60
 
 
-def test_the_grade_is_the_same_without_and_nothing_is_sampled_then(recorded: tuple[Grade, Path]) -> None:
+def test_without_a_recording_the_grade_is_the_same_and_no_posture_is_sampled(
+    recorded: tuple[Grade, Path],
+) -> None:
     result, runs = graded(None)
     assert [(check.id, check.status, check.points) for check in result.checks] == [
         (check.id, check.status, check.points) for check in recorded[0].checks

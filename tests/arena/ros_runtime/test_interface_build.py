@@ -189,7 +189,7 @@ def test_a_package_needs_a_name_of_its_own(source: Path, tmp_path: Path, name: s
         build_package(source, tmp_path, name)
 
 
-def test_a_build_that_fails_all_the_same_is_reported_with_its_output(
+def test_a_failed_build_of_valid_definitions_is_reported_with_its_output(
     source: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail(*_: object) -> None:

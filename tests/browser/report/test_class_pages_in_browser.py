@@ -78,7 +78,7 @@ def test_the_keyboard_leads_from_the_class_to_what_happened(page: Page) -> None:
     assert drawing.is_visible()
 
 
-def test_in_the_dark_text_is_light_and_on_a_phone_nothing_sticks_out(page: Page, folder: Path) -> None:
+def test_dark_mode_has_light_text_and_a_phone_needs_no_horizontal_scrolling(page: Page, folder: Path) -> None:
     brightness = (
         "style => style.match(/\\d+/g).slice(0, 3).reduce((sum, value) => sum + Number(value), 0) / 3"
     )

@@ -65,7 +65,7 @@ def test_it_listens_on_this_machine_alone(url):
         socket.create_connection(("127.0.0.2", port_of(url)), timeout=5).close()
 
 
-def test_what_was_replaced_in_mujoco_is_put_back():
+def test_mujocos_own_functions_are_restored():
     program = (
         "from robot_sim.humanoid import Humanoid; from robot_sim.views.web_view import WebView;"
         "view = WebView(Humanoid());"
@@ -80,7 +80,7 @@ def test_what_was_replaced_in_mujoco_is_put_back():
     assert expected in map(str.strip, ran.stderr.splitlines()), ran.stdout + ran.stderr
 
 
-def test_the_viewer_prints_nothing_into_our_lines():
+def test_the_viewer_prints_no_lines():
     with viewed_robot() as (process, _):
         said = process.stdout.readline()
         process.send_signal(signal.SIGINT)
@@ -89,7 +89,7 @@ def test_the_viewer_prints_nothing_into_our_lines():
     assert left == ""
 
 
-def test_a_taken_port_is_said(url):
+def test_a_taken_port_is_reported(url):
     with viewed_robot("--port", str(port_of(url))) as (process, _):
         assert f"Port {port_of(url)} is already in use" in process.stderr.read()
         assert process.wait(30) == 1

@@ -50,7 +50,7 @@ def recording(tmp_path: Any) -> Iterator[Recording]:
     recording.close()
 
 
-def test_a_flood_of_feedback_for_nobodys_goals_pushes_out_no_other(recording: Recording) -> None:
+def test_a_flood_of_feedback_for_unknown_goals_does_not_displace_other_feedback(recording: Recording) -> None:
     for _ in range(MOST_OF_NOBODYS + 600):
         recording.feedback("unknown 0000", of=UNKNOWN_GOAL)
     recording.feedback("walk")
@@ -70,13 +70,13 @@ def test_what_is_dropped_is_recorded_with_its_number_and_time(
     assert dropped.seconds > MOST_OF[ev.FeedbackReceived.kind]
 
 
-def test_nothing_is_said_when_nothing_was_dropped(recording: Recording) -> None:
+def test_without_dropped_events_no_drop_is_recorded(recording: Recording) -> None:
     recording.feedback("walk")
     recording.log.finish()
     assert recording.of(ev.RecordDropped) == []
 
 
-def test_all_that_students_send_together_stays_below_a_budget(
+def test_all_recorded_events_together_stay_below_a_limit(
     recording: Recording, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(arena_log_module, "LARGEST_RECORD", 10_000)
@@ -90,7 +90,7 @@ def test_all_that_students_send_together_stays_below_a_budget(
     assert recording.of(ev.Mark)
 
 
-def test_a_long_text_is_cut_and_says_how_long_it_was(recording: Recording) -> None:
+def test_a_long_text_is_cut_and_ends_with_its_length(recording: Recording) -> None:
     recording.feedback("walk", String(data="x" * 1_234_567))
     (feedback,) = recording.of(ev.FeedbackReceived)
     assert feedback.feedback.data == "x" * MAX_LENGTH + "…[cut: 1,234,567 characters]"
@@ -104,13 +104,13 @@ def test_a_long_list_is_recorded_as_empty_and_by_its_length(recording: Recording
     assert recording.of(ev.TooLarge)[0].bytes == 60_000
 
 
-def test_an_event_that_is_large_for_all_that_is_not_written(recording: Recording) -> None:
+def test_an_event_that_is_still_too_large_is_not_written(recording: Recording) -> None:
     recording.feedback("walk", JointState(name=["x" * MAX_LENGTH] * 200))
     (large,) = recording.events()
     assert (large.kind, large.what) == ("too_large", ev.FeedbackReceived.kind)
 
 
-def test_half_a_character_does_not_break_the_report(recording: Recording) -> None:
+def test_a_lone_surrogate_does_not_break_the_report(recording: Recording) -> None:
     recording.log.append(ev.NodeOutput(stream="stdout", text="\ud83d naïve"))
     assert recording.of(ev.NodeOutput)[0].text == "? naïve"
 

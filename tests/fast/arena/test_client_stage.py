@@ -46,7 +46,7 @@ def stage_of(log: ArenaLog, *, has_exited: bool) -> ClientStage:
     return ClientStage(node, log, student, Phases(log, wanted=False), lambda: None)
 
 
-def test_a_module_that_never_ends_is_recorded_and_the_scenario_goes_on(
+def test_a_module_that_never_ends_is_recorded_and_the_scenario_continues(
     log: ArenaLog, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(client_stage_module, "MODULE_TIMEOUT", 0.01)
@@ -56,7 +56,7 @@ def test_a_module_that_never_ends_is_recorded_and_the_scenario_goes_on(
     assert (event.what, event.id) == ("end", "program")
 
 
-def test_a_graph_that_cannot_be_read_is_no_node_and_is_told(
+def test_an_unreadable_graph_has_no_node_and_is_recorded(
     log: ArenaLog, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(client_stage_module, "APPEARING_TIMEOUT", 0.01)

@@ -61,7 +61,7 @@ def close(received: Iterator[int]) -> list[str]:
 
 
 @pytest.mark.usefixtures("clock")
-def test_after_a_sound_node_one_look_is_enough() -> None:
+def test_after_a_correct_node_one_check_is_enough() -> None:
     assert close(iter([400, 402])) == ["look", "look", "inspect", "finish"]
 
 
@@ -78,7 +78,7 @@ def test_a_flood_without_end_is_recorded() -> None:
 
 
 @pytest.mark.usefixtures("clock")
-def test_a_condition_that_nobody_tells_of_is_looked_at_until_the_time_is_over() -> None:
+def test_a_condition_without_a_notification_is_polled_until_the_timeout() -> None:
     stage = stage_of(Kept(iter([])))
     looks = iter([False, False, True])
     assert stage.poll_until(lambda: next(looks), 1.0)

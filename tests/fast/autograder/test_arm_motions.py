@@ -115,7 +115,7 @@ def test_an_arm_that_follows_has_arrived() -> None:
     assert motion.passes_every_point(run.goal("move")) == "2 points, unhindered"
 
 
-def test_an_arm_that_is_not_there_has_not() -> None:
+def test_an_arm_away_from_its_goal_has_not_arrived() -> None:
     run = moved(lambda t: follows(t) - 0.2)
     assert "l_elbow is 0.20 rad away" in failure_of(ends.succeeds, run.goal("move")).observed
 
@@ -192,7 +192,7 @@ def silenced(code: int) -> Any:
     return run.goal("move")
 
 
-def test_silence_has_a_code_of_its_own() -> None:
+def test_missing_joint_states_have_an_error_code_of_their_own() -> None:
     goal = silenced(MoveArm.Result.INVALID_JOINTS)
     assert ends.notices_silence(goal) == "on the way"
     assert motion.holds_when_given_up(goal) == "without joint_states"
@@ -227,5 +227,5 @@ def behind(t: float) -> float:
         (given_up(behind, MoveArm.Result.GOAL_TOLERANCE_VIOLATED), "0.30 rad from the last point, too"),
     ],
 )
-def test_why_a_goal_was_given_up_is_told_by_its_code_and_by_where_the_arm_was(run: Any, word: str) -> None:
+def test_an_aborted_goal_is_explained_by_its_code_and_the_arms_position(run: Any, word: str) -> None:
     assert word in failure_of(ends.succeeds, run.goal("move")).help

@@ -76,17 +76,17 @@ def test_each_of_the_two_solutions_is_on_its_side():
 
 
 @pytest.mark.parametrize("shoulder", [math.inf, math.nan])
-def test_an_angle_that_is_none_has_no_side(shoulder):
+def test_a_value_that_is_not_an_angle_has_no_side(shoulder):
     with pytest.raises(Failure, match="which is nowhere"):
         require_side(answer(shoulder, ELBOW, elbow_up=True))
 
 
-def test_behind_the_shoulder_either_side_will_do():
+def test_behind_the_shoulder_both_sides_are_accepted():
     for elbow_up in (False, True):
         require_side(answer(math.pi - SHOULDER, -ELBOW, target=(-0.4, 0.3), elbow_up=elbow_up))
 
 
-def test_two_millimetres_are_too_many():
+def test_an_error_of_two_millimetres_is_too_large():
     with pytest.raises(Failure, match="mm off"):
         require_hit(answer(SHOULDER + 0.004, ELBOW))
 
@@ -127,7 +127,7 @@ def test_an_answer_for_the_default_lengths_is_recognised():
 
 
 @pytest.mark.parametrize(("code", "advice"), [(0, "constants"), (-31, "farthest")])
-def test_a_code_that_is_none_is_told_from_a_wrong_one(code, advice):
+def test_an_undefined_code_is_distinguished_from_a_wrong_code(code, advice):
     with pytest.raises(Failure) as failure:
         require_hit(answer(SHOULDER, ELBOW, error_code=code))
     assert advice in failure.value.help
@@ -140,7 +140,7 @@ def sides(run_below, run_above):
     return failure.value.help
 
 
-def test_an_elbow_that_is_always_on_one_side_is_told_from_one_that_is_turned_round():
+def test_an_elbow_always_on_one_side_is_distinguished_from_swapped_sides():
     below, above = (SHOULDER, ELBOW), (DIRECTION + INSIDE, -ELBOW)
     assert sides(below, below).startswith(
         "With elbow_up false the elbow was also below: elbow_up is not used."
@@ -198,7 +198,7 @@ def test_a_length_that_was_refused_is_not_used():
 
 
 @pytest.mark.parametrize("length", [0.0, -0.25, math.nan])
-def test_with_a_length_that_is_none_any_answer_will_do(length):
+def test_with_an_invalid_length_any_answer_is_accepted(length):
     asked = run(answer(1.0, 1.0), lengths=(length,))
     assert MODEL.answers_every_call.judge(asked) == {"with lengths that are none": 1}
     assert not MODEL.reaches_the_point.judge(asked)

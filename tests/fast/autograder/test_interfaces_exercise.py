@@ -70,7 +70,7 @@ def test_a_field_of_another_name_is_to_be_renamed():
         ({"tolerance": "float64"}, "float64 is another type"),
     ],
 )
-def test_a_wrong_type_is_told_what_it_lacks(fields, reason):
+def test_a_wrong_type_is_reported_with_the_right_one(fields, reason):
     told = failure("goal_has_its_fields", goal=part(GOAL | fields))
     assert reason in told.help
     assert told.help.startswith("Write ")
@@ -95,7 +95,7 @@ def test_a_field_too_many_is_to_be_removed():
         (0, "", "1: it is request --- response", "Put 1 of these lines into it: it is request --- response."),
     ],
 )
-def test_what_the_build_refuses_is_told_with_what_to_write(line, text, expected, next_step):
+def test_a_line_that_the_build_refuses_is_corrected(line, text, expected, next_step):
     problem = {"line": line, "text": text, "wrong": "it is wrong", "expected": expected}
     report = {"built": False, "problems": [problem], "more": 0, "log": ""}
     assert failure_of("action_builds", "NavigateToPose.action", report).help == next_step

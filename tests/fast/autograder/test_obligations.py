@@ -51,7 +51,7 @@ def check_on(*scenarios):
     return replace(check_of(prints, points=2, on=scenarios), id="prints")
 
 
-def test_it_says_its_clauses_its_sentence_and_its_situations():
+def test_its_title_has_clauses_sentence_and_situations():
     check = check_on(ASK)
     assert (check.clauses, check.title, check.obligations) == ((2,), "It prints something good", (prints,))
     assert prints.judge(run_of(ASK, said="good")) == {"good": 1}
@@ -73,7 +73,7 @@ def test_its_id_is_the_name_of_its_variable():
     assert [check.id for check in checks_in(module)] == ["prints_something", "again"]
 
 
-def test_a_submission_that_never_gives_occasion_has_failed_and_is_not_ungraded(monkeypatch):
+def test_a_submission_for_which_no_obligation_applies_fails(monkeypatch):
     ran = arenas(monkeypatch, lambda scenario, scale: run_of(scenario))
     grade = grading.grade(SUBMISSION, exercise(check_on(ASK)), ONE_JOB)
     assert statuses(grade) == {"prints": "failed"}
@@ -83,18 +83,18 @@ def test_a_submission_that_never_gives_occasion_has_failed_and_is_not_ungraded(m
     )  # each on a slower clock, as the machine may be to blame
 
 
-def test_an_occasion_that_a_slower_clock_gives_is_enough(monkeypatch):
+def test_an_obligation_that_applies_on_a_slower_clock_is_enough(monkeypatch):
     arenas(monkeypatch, lambda scenario, scale: run_of(scenario, said="good" if scale < 5.0 else ""))
     grade = grading.grade(SUBMISSION, exercise(check_on(ASK)), ONE_JOB)
     assert statuses(grade) == {"prints": "passed"}
 
 
-def test_steps_that_were_not_carried_out_are_no_pass():
+def test_a_run_with_missing_steps_does_not_pass():
     with pytest.raises(Missing, match="step 2 of the scenario"):
         check_on(ASK).run([run_of(ASK, said="good", steps_done=1)])
 
 
-def test_only_checks_on_drawn_sequences_meet_any_fault():
+def test_only_checks_on_drawn_sequences_can_find_any_fault():
     assert not check_on(ASK).meets_any_fault
     assert check_on(ASK, DRAWN).meets_any_fault
 
@@ -121,7 +121,7 @@ def test_a_failure_names_the_shortest_steps_that_show_it(monkeypatch, least, nam
     assert grade.checks[0].observed == f"bad; steps: {named}"
 
 
-def test_steps_that_make_no_scenario_by_themselves_are_left(monkeypatch):
+def test_steps_that_are_not_a_scenario_alone_are_not_shortened(monkeypatch):
     def answer(scenario, scale):
         if scenario is not DRAWN:
             raise grading.NotGraded("KeyError: 'goal'")
@@ -132,7 +132,7 @@ def test_steps_that_make_no_scenario_by_themselves_are_left(monkeypatch):
     assert statuses(grade) == {"prints": "failed"}
 
 
-def test_an_arena_that_ends_early_passes_nothing(monkeypatch):
+def test_with_an_arena_that_ends_early_no_check_passes(monkeypatch):
     arenas(monkeypatch, lambda scenario, scale: run_of(scenario, said="good", missing=("mark",)))
     grade = grading.grade(SUBMISSION, exercise(check_on(ASK)), ONE_JOB)
     assert grade.score == 0

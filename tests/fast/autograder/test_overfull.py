@@ -50,6 +50,6 @@ def test_it_is_graded_and_says_how_much_was_taken():
 
 
 @pytest.mark.parametrize("ended", [Ended.DEADLINE, Ended.EXIT, Ended.KILLED])
-def test_any_other_end_is_nobodys_failure(ended):
+def test_any_other_end_is_not_the_students_failure(ended):
     with pytest.raises(NotGraded):
         run_in_arena(RUN, arenas=_EndedArenas(ended))

@@ -92,11 +92,11 @@ def failure(check, *parts, **params):
         ([BOTH, ENABLED, asked(STATUS, 3.0, 3.1)], "It went on after the last answer"),
     ],
 )
-def test_a_program_that_hangs_is_told_where(parts, where):
+def test_for_a_program_that_hangs_the_running_line_is_reported(parts, where):
     assert where in failure("prints_the_status", *parts, HUNG, status="Motors: ON").help
 
 
-def test_a_program_that_waits_for_a_dead_server_is_told_so():
+def test_a_program_that_waits_for_a_dead_server_gets_that_explanation():
     gone = [ev.ServiceWithdrawn(t=3.5, service=STATUS, server=f"server of {STATUS}")]
     told = failure("survives_a_dying_server", BOTH, ENABLED, asked(STATUS, 3.0), gone, HUNG)
     assert "It hung after request 1 (to get_status) was sent, when the server had died" in told.help
@@ -162,7 +162,7 @@ def test_a_program_that_waits_for_a_dead_server_is_told_so():
         ),
     ],
 )
-def test_a_program_that_gives_up_too_early_is_told_what_it_missed(parts, observed, what_to_do):
+def test_for_a_program_that_gives_up_too_early_the_missed_answer_is_reported(parts, observed, what_to_do):
     told = failure("prints_the_status", *parts, status="Motors: ON")
     assert told.observed.startswith(observed) or observed in told.observed
     assert what_to_do in told.help
@@ -184,7 +184,7 @@ def test_what_is_wrong_with_the_printed_line(output, what_to_do):
     assert what_to_do in told.help
 
 
-def test_a_program_in_another_namespace_that_finds_nobody_has_a_slash_too_many():
+def test_a_program_that_finds_no_server_because_of_a_leading_slash_is_told():
     told = failure("works_in_any_namespace", BOTH, said(3.0, "nobody offers it"), ended(3.2, 1), status="it")
     assert told.expected == "a request to enable_motors in the namespace in which the program was started"
     assert "are all names relative" in told.help
@@ -209,7 +209,7 @@ def test_a_refusal_is_exit_status_1_like_every_other_failure(status):
     assert "2 to 4 are for goals of actions" in told.help
 
 
-def test_a_status_that_main_does_not_hand_over():
+def test_an_exit_status_that_main_does_not_return_is_explained():
     told = failure("gives_up_without_servers", said(3.0, "no server"), ended(3.2, 0))
     assert told.observed == "exit status 0; the last line on stderr: no server"
     assert "sys.exit(main())" in told.help
@@ -285,14 +285,14 @@ def test_a_deadline_of_10_s_is_kept_also_where_the_program_takes_its_time_to_end
     CHECKS["keeps_one_deadline"].run([run_of(late(gave_up, exited))])
 
 
-def test_limits_of_their_own_are_no_deadline():
+def test_separate_timeouts_do_not_make_a_deadline():
     with pytest.raises(Failure) as told:
         CHECKS["keeps_one_deadline"].run([run_of(late(12.2, 12.5))])
     assert told.value.observed == "it gave up after 11.2 s; get_status was asked at 6.3 s and 8.3 s"
     assert "at most what is left of it" in told.value.help
 
 
-def test_the_scenario_leaves_no_doubt_whether_there_is_a_deadline():
+def test_the_scenario_distinguishes_programs_with_and_without_a_deadline():
     """Without one the waits take longer than what is allowed, whether the servers are found at once or in turn."""
     scenario, _refused = CHECKS["keeps_one_deadline"].on
     appears, answers = scenario.draw(0)["appears"], scenario.draw(0)["answers"]

@@ -70,7 +70,7 @@ def test_an_executor_that_cannot_be_opened_is_an_error_and_no_grade() -> None:
         outcomes(WorkerPool(Workers(unavailable, at_a_time=1), partial(grade_or_die, Path())), ["anna"])
 
 
-def test_what_could_not_be_graded_is_done_again_alone_at_the_end() -> None:
+def test_an_ungraded_job_is_repeated_alone_at_the_end() -> None:
     running, beside, tries = set[str](), dict[str, int](), Counter[str]()
 
     def busy_at_first(job: GradingJob) -> Outcome:
@@ -91,7 +91,7 @@ def test_what_could_not_be_graded_is_done_again_alone_at_the_end() -> None:
     assert beside["always"] == beside["at first"] == 0
 
 
-def test_what_was_not_graded_for_a_reason_that_stays_is_not_done_again() -> None:
+def test_a_job_that_is_ungraded_for_a_permanent_reason_is_not_repeated() -> None:
     tries: list[str] = []
 
     def without_isolation(job: GradingJob) -> Outcome:

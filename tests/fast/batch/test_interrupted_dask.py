@@ -30,9 +30,7 @@ job.grade = held
 STUDENTS = [f"student{number}" for number in range(6)]
 
 
-def test_ctrl_c_takes_back_what_has_not_begun_and_leaves_the_cluster_as_it_is(
-    tmp_path: Path, monkeypatch
-) -> None:
+def test_ctrl_c_removes_queued_jobs_and_leaves_the_cluster_running(tmp_path: Path, monkeypatch) -> None:
     monkeypatch.setenv("COURSE_ISOLATION", "none")
     for student in STUDENTS:
         (tmp_path / "submitted" / student).mkdir(parents=True)

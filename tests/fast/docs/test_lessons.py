@@ -39,7 +39,7 @@ def test_every_lesson_that_the_engine_itself_points_to_is_there() -> None:
 
 
 @pytest.mark.parametrize("see", ["02_services#no-such-cell", "99_nothing#title", "02_services"])
-def test_a_lesson_that_is_gone_is_noticed(see: str) -> None:
+def test_a_missing_lesson_is_detected(see: str) -> None:
     assert not lesson.is_there(see)
 
 

@@ -71,7 +71,7 @@ def test_the_cheat_sheet_has_every_function_of_the_lab_and_no_other() -> None:
     assert named == {name for name in lab.__all__ if name[0].islower()}
 
 
-def test_its_ros2_commands_are_those_that_there_are() -> None:
+def test_its_ros2_commands_exist() -> None:
     known = set(re.findall(r"^\| `(\w+ \w+)", (DOCS / "ros2_commands.md").read_text(), re.MULTILINE))
     used = {verb for text in code(2) for verb in re.findall(r"\bros2 (\w+ \w+)", text)}
     assert len(used) > 15

@@ -125,7 +125,7 @@ def travel(stage: Stage) -> HTML:
     return lab.film_from_above(stage.recording, reach=0.6, title="A trip")
 
 
-def test_a_trip_from_above_tells_its_phases_and_moments(stage: Stage) -> None:
+def test_a_trip_from_above_shows_its_phases_and_moments(stage: Stage) -> None:
     assert words(travel(stage)) == (
         "A trip, 2.0 s. Phases: walking from 0.1 s, turning from 1.1 s, walking from 1.5 s. 1.0 s: push. "
         "In the end SUCCEEDED, 0.42 m from the goal."
@@ -141,7 +141,7 @@ def test_the_phase_has_its_colour_and_the_push_flashes(stage: Stage) -> None:
     assert near(pushed, VERMILION) > 800  # another phase, and the ring around the robot
 
 
-def test_feedback_without_a_phase_is_no_trip(stage: Stage) -> None:
+def test_feedback_without_a_phase_is_refused(stage: Stage) -> None:
     walk_past(stage, at=1.5)
     with pytest.raises(lab.LabError, match="no feedback with a `status`"):
         lab.film_from_above(stage.recording)

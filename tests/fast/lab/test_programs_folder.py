@@ -31,7 +31,7 @@ def test_each_notebook_writes_its_own_file_of_a_name(notebooks: Path) -> None:
     }
 
 
-def test_it_says_where_a_terminal_finds_them(
+def test_the_path_for_a_terminal_is_printed(
     notebooks: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(programs_folder, "WORK", notebooks.parent)

@@ -77,7 +77,7 @@ def test_a_pose_in_odom_is_the_one_in_base_link_seen_from_elsewhere(held, orient
 
 
 @pytest.mark.parametrize("scene", ["flat", "table"])
-def test_for_where_the_hand_is_the_answer_is_the_posture_it_has(scene):
+def test_for_the_hands_present_pose_the_answer_is_the_present_posture(scene):
     robot = Humanoid(scene)
     robot.reset(X, Y, YAW, height=0.5)
     hand = robot.hands[Side.LEFT].pose

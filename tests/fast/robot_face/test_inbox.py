@@ -41,7 +41,7 @@ def trajectories():
     return Topic(JointTrajectory, most_bytes=MOST_BYTES, why_not=why_too_large)
 
 
-def test_a_sound_message_is_heard():
+def test_a_valid_message_reaches_the_callback():
     topic = Topic(Twist)
     command = Twist()
     command.linear.x = 0.2
@@ -69,7 +69,7 @@ def test_a_message_of_fixed_length_that_is_longer_is_refused():
 
 
 @pytest.mark.parametrize("points", [0, 1, MOST_POINTS])
-def test_every_trajectory_with_as_many_points_as_it_may_have_is_heard(points):
+def test_every_trajectory_within_the_limit_of_points_reaches_the_callback(points):
     topic = trajectories()
     topic.inbox.process(trajectory(points, full=True))
     assert [len(message.points) for message in topic.heard] == [points]
@@ -107,7 +107,7 @@ def test_lengths_are_read_from_bytes():
         count_joints_and_points(data[:12] + struct.pack("<I", 0xFFFFFFFF) + data[16:])
 
 
-def test_of_a_flood_so_many_a_second_are_heard_and_the_newest_wait():
+def test_a_flood_is_limited_to_a_rate_and_the_newest_messages_wait():
     topic = Topic(Twist)
     for tick in range(100):  # 2 s in looks of 20 ms
         topic.waiting += [serialize_message(Twist())] * 30
@@ -120,7 +120,7 @@ def test_of_a_flood_so_many_a_second_are_heard_and_the_newest_wait():
     assert len(topic.reports) < 12, "a few reports a second"
 
 
-def test_a_fast_node_is_no_flood():
+def test_a_fast_publisher_does_not_count_as_a_flood():
     topic = Topic(Twist)
     for tick in range(500):
         topic.waiting += [serialize_message(Twist())] * 2  # 100 Hz
@@ -129,7 +129,7 @@ def test_a_fast_node_is_no_flood():
     assert topic.reports == []
 
 
-def test_of_refused_giants_few_a_second_are_even_taken():
+def test_too_large_messages_are_taken_at_a_limited_rate():
     topic, giant = trajectories(), bytes(5_000_000)
     for tick in range(500):  # 10 s
         topic.waiting = [giant] * 10
@@ -143,7 +143,7 @@ def test_of_refused_giants_few_a_second_are_even_taken():
     assert len(topic.heard) == 1, "a sound one is heard after it"
 
 
-def test_hearing_goes_on_when_time_goes_back():
+def test_messages_are_processed_after_time_has_gone_back():
     topic = Topic(Twist)
     topic.inbox.process_arrived(100.0)
     topic.waiting = [serialize_message(Twist())]
@@ -151,7 +151,7 @@ def test_hearing_goes_on_when_time_goes_back():
     assert len(topic.heard) == 1
 
 
-def test_what_is_refused_is_an_event_of_the_truth(tmp_path):
+def test_a_refused_message_is_written_to_the_ground_truth(tmp_path):
     with open(tmp_path / "truth", "w+b") as file:
         GroundTruthWriter(file.fileno()).refused("/robot/cmd_vel", 7, 4000, 64, "malformed")
         file.seek(0)

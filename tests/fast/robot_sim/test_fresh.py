@@ -55,7 +55,7 @@ def test_a_used_robot_that_is_reset_is_a_fresh_one(scene):
     assert trace(again) == trace(Humanoid(scene, seed=4))
 
 
-def test_a_robot_of_another_scene_is_not_taken():
+def test_a_robot_of_another_scene_is_not_reused():
     assert build_humanoid(RobotOptions(scene="stand"), Humanoid("flat")).scene == "stand"
 
 

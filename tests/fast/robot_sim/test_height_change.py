@@ -65,7 +65,7 @@ def test_progress_never_falls_back_and_the_speed_limit_holds(humanoid):
     assert max(speeds[100:]) < 1.05 * FASTEST
 
 
-def test_it_does_not_set_out_before_its_weight_is_even():
+def test_it_does_not_start_before_its_weight_is_even():
     def when_it_sets_out(impulse: float) -> float:
         humanoid = Humanoid()
         humanoid.reset(height=CROUCH)
@@ -79,7 +79,7 @@ def test_it_does_not_set_out_before_its_weight_is_even():
     assert when_it_sets_out(8.0) > when_it_sets_out(0.0) + 0.1
 
 
-def test_a_push_under_way_takes_it_back_to_shifting(humanoid):
+def test_a_push_during_the_motion_returns_it_to_shifting(humanoid):
     humanoid.reset(height=CROUCH)
     change = humanoid.stand_up()
     until_phase(humanoid, change, "rising")
@@ -88,11 +88,11 @@ def test_a_push_under_way_takes_it_back_to_shifting(humanoid):
     assert height(humanoid) == pytest.approx(STANCE, abs=0.005)
 
 
-def test_who_stands_is_done_at_once(humanoid):
+def test_a_standing_robot_is_done_at_once(humanoid):
     assert phases_of(humanoid, humanoid.stand_up()) == ["shifting", "settling", "done"]
 
 
-def test_a_fall_is_told(humanoid):
+def test_a_fall_is_reported(humanoid):
     humanoid.reset(height=CROUCH)
     change = humanoid.stand_up()
     until_phase(humanoid, change, "rising")
@@ -103,7 +103,7 @@ def test_a_fall_is_told(humanoid):
     assert change.percent_complete < 100
 
 
-def test_a_phase_that_cannot_end_is_told(humanoid):
+def test_a_phase_that_cannot_end_is_reported(humanoid):
     humanoid.reset(height=CROUCH)
     change = humanoid.stand_up()
     until_phase(humanoid, change, "rising")
@@ -124,7 +124,7 @@ def test_a_phase_that_cannot_end_is_told(humanoid):
         (lambda robot: robot.set_motor_power(False), "the motors went off"),
     ],
 )
-def test_what_ends_it_is_told(humanoid, command, reason):
+def test_the_reason_of_an_interruption_is_reported(humanoid, command, reason):
     change = humanoid.crouch_to(CROUCH)
     until_phase(humanoid, change, "lowering")
     command(humanoid)

@@ -66,7 +66,7 @@ def hand_in(chain: Chain, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray
     return frame[:3, 3], np.column_stack((-z, y, x))
 
 
-def test_ikpy_sees_the_hand_where_the_solver_was_asked_to_put_it(humanoid, kinematics):
+def test_ikpy_computes_the_goal_from_the_solvers_angles(humanoid, kinematics):
     for known in known_goals():
         if not known.reachable:
             continue
@@ -80,7 +80,7 @@ def test_ikpy_sees_the_hand_where_the_solver_was_asked_to_put_it(humanoid, kinem
 
 
 @pytest.mark.parametrize("with_waist", [False, True])
-def test_what_ikpy_reaches_is_reached(humanoid, kinematics, with_waist):
+def test_goals_that_ikpy_reaches_are_reached(humanoid, kinematics, with_waist):
     chance = random.Random(4)
     by_both, missed = 0, []
     for number in range(PLACES):

@@ -100,7 +100,7 @@ def test_a_waist_that_may_not_turn_is_taken_as_it_stands(kinematics):
     assert posed(waist, Side.RIGHT)[0] == pytest.approx(ACROSS, abs=2e-3)
 
 
-def test_the_same_question_has_the_same_answer_and_moves_nothing(kinematics, humanoid):
+def test_the_same_goal_has_the_same_solution_and_moves_nothing(kinematics, humanoid):
     before = humanoid.data.qpos.copy()
     first, second = (kinematics.solve(humanoid.data, Side.RIGHT, HandGoal(AHEAD)) for _ in range(2))
     assert first == second
@@ -115,7 +115,7 @@ def test_the_same_question_has_the_same_answer_and_moves_nothing(kinematics, hum
         ((0.4, -0.2, 0.3), BACKWARDS, "the closest posture found leaves the hand 0.* m and .* rad away"),
     ],
 )
-def test_what_is_out_of_reach_is_refused_with_the_reason(kinematics, humanoid, position, rotation, reason):
+def test_an_unreachable_goal_is_refused_with_the_reason(kinematics, humanoid, position, rotation, reason):
     with pytest.raises(Unreachable, match=reason):
         kinematics.solve(humanoid.data, Side.RIGHT, HandGoal(np.array(position), rotation))
 
@@ -135,7 +135,7 @@ def test_a_hand_that_points_ahead_has_the_axes_of_base_link(kinematics, side):
     assert (pads[0] - pads[1])[1] > 0, "finger 1 is on the left"
 
 
-def test_a_body_that_keeps_its_balance_gives_way_by_centimetres(kinematics):
+def test_a_balancing_body_moves_by_centimetres(kinematics):
     robot = Humanoid()
     simulate(robot, 0.5)
     goal = HandGoal(AHEAD)

@@ -31,7 +31,7 @@ def loads(humanoid: Humanoid) -> list[dict]:
     return [line for line in told if line["kind"] == "feet_truth"]
 
 
-def test_the_feet_that_were_asked_about_are_told_with_each_state_of_the_robot() -> None:
+def test_the_requested_feet_are_reported_with_each_state_of_the_robot() -> None:
     humanoid = Humanoid()
     simulate(humanoid, 1.0)
     for sample in loads(humanoid):
@@ -41,9 +41,7 @@ def test_the_feet_that_were_asked_about_are_told_with_each_state_of_the_robot() 
 
 @pytest.mark.parametrize("side", [-1, 1])
 @pytest.mark.parametrize("height", [CROUCH, STANCE])
-def test_a_robot_that_is_leaned_on_stands_on_both_feet_unevenly_until_it_is_let_go(
-    side: int, height: float
-) -> None:
+def test_a_lateral_force_loads_the_feet_unevenly_until_it_ends(side: int, height: float) -> None:
     humanoid = Humanoid()
     humanoid.reset(height=height)
     simulate(humanoid, 1.0)
@@ -61,7 +59,7 @@ def test_a_robot_that_is_leaned_on_stands_on_both_feet_unevenly_until_it_is_let_
     assert (humanoid.mode, humanoid.steps) == (Mode.STANDING, 0)
 
 
-def test_a_scenario_lowers_the_robot_until_told_otherwise() -> None:
+def test_a_scenario_lowers_the_robot_until_the_next_command() -> None:
     humanoid = Humanoid()
     apply_command({"do": "move_body", "rate": -0.1}, humanoid, None)
     assert simulate(humanoid, 2.0, until=lambda: humanoid.base_pose().position[2] < 0.53)

@@ -78,7 +78,7 @@ def draw_with(**variables):
     )
 
 
-def test_a_backend_that_needs_a_screen_is_set_aside():
+def test_a_backend_that_needs_a_screen_is_ignored():
     outcome = draw_with(MUJOCO_GL="glfw")
     assert outcome.stdout.split() in (["True", "egl"], ["True", "osmesa"]), outcome.stderr
 

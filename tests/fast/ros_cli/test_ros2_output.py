@@ -154,12 +154,12 @@ def test_an_unknown_interface_is_reported(name: str, expected: str) -> None:
         list(definition(name))
 
 
-def test_an_unknown_name_is_reported_with_those_that_look_alike() -> None:
+def test_an_unknown_name_is_reported_with_similar_names() -> None:
     names = ["/robot/odom", "/robot/imu"]
     assert str(unknown("topic", "/odom", names)) == "Unknown topic '/odom': did you mean /robot/odom?"
     assert "`topic list` shows" in str(unknown("topic", "/camera", names))
 
 
-def test_ticks_come_as_often_as_asked_or_without_an_end() -> None:
+def test_ticks_end_after_a_given_number_or_never() -> None:
     assert list(ticks(0.001, 3)) == [1, 2, 3]
     assert list(islice(ticks(0.001, 0), 5)) == [1, 2, 3, 4, 5]

@@ -31,7 +31,7 @@ from ros_cli.yaml_values import message_from_yaml, message_to_yaml
         (AddTwoInts.Request, "", "a", 0),
     ],
 )
-def test_what_is_typed_becomes_the_message(message_type: Any, text: str, field: str, expected: Any) -> None:
+def test_typed_yaml_becomes_the_message(message_type: Any, text: str, field: str, expected: Any) -> None:
     value = message_from_yaml(message_type, text)
     for name in field.split("."):
         value = getattr(value, name)

@@ -38,7 +38,7 @@ def test_affected_versions_are_repaired(version):
 
 
 @pytest.mark.parametrize("version", ["3.3.11", "7.1.13", "7.2.0", "9.1.2", "10.0.4"])
-def test_other_versions_are_left_alone(version):
+def test_other_versions_are_not_changed(version):
     assert not needs_repair(version)
 
 
@@ -55,7 +55,7 @@ def test_a_newer_rclpy_is_not_touched():
     assert python("-c", code)[0] == "False"
 
 
-def test_python_starts_in_silence_where_ros_runtime_is_missing(tmp_path):
+def test_python_starts_without_output_if_ros_runtime_is_missing(tmp_path):
     shutil.copy(PTH, tmp_path)
     output, errors = python(
         *("-I", "-S", "-c", f"import site; site.addsitedir({str(tmp_path)!r}); print('started')")

@@ -59,11 +59,11 @@ def test_links_nodes_and_facts_are_read() -> None:
 
 @pytest.mark.parametrize("fact", ["qos", "rate", "failure", "safety"])
 @pytest.mark.parametrize("text", ["", "…", "?", "-"])
-def test_a_fact_that_says_nothing_is_missing(fact: str, text: str) -> None:
+def test_an_empty_fact_is_missing(fact: str, text: str) -> None:
     assert missing(link(**{fact: text})) == [f"{fact} is missing"]
 
 
-def test_a_wire_needs_no_qos_and_says_what_runs_through_it() -> None:
+def test_a_wire_needs_no_qos_but_a_description() -> None:
     assert missing(link("wire", "24 V", qos="")) == []
     assert missing(link("wire", "")) == ["type is missing: say what the wire carries"]
 
@@ -97,7 +97,7 @@ def test_a_type_of_another_kind_is_named(pattern: str, type: str, kind: str) -> 
     ]
 
 
-def test_a_word_that_is_no_pattern_is_named() -> None:
+def test_an_unknown_pattern_is_named() -> None:
     assert missing(link("stream"))[0] == "pattern: expected one of topic, service, action, wire, got 'stream'"
 
 
@@ -114,7 +114,7 @@ def test_a_line_that_cannot_be_read_is_named(text: str, problem: str) -> None:
     assert found.startswith(problem)
 
 
-def test_what_is_indented_below_a_line_that_is_no_link_is_left_aside() -> None:
+def test_lines_indented_below_an_unreadable_link_are_ignored() -> None:
     assert len(read_design("camera to finder\n  rate: 15 Hz\n  qos: x").problems) == 1
 
 
@@ -136,17 +136,17 @@ def test_a_drawing_shows_nodes_and_links_and_marks_what_lacks_a_fact() -> None:
     assert len(root.findall(BOX)) == 1 + nodes_left + links + nodes_right
 
 
-def test_nothing_that_is_written_becomes_part_of_the_page() -> None:
+def test_text_of_a_design_is_escaped() -> None:
     svg = design_svg(read_design("a -> b : topic <script>alert(1)</script>"), title="<b>")
     assert "<script>" not in svg
     ET.fromstring(svg)
 
 
-def test_a_drawing_has_an_end() -> None:
+def test_the_number_of_drawn_links_is_limited() -> None:
     many = Design(tuple(Link(f"n{number}", "sink", "topic", "x/msg/Y") for number in range(500)))
     assert design_svg(many, title="many").count("rx=") == MOST_LINKS + 1
 
 
-def test_nothing_can_be_drawn_of_nothing() -> None:
+def test_an_empty_design_cannot_be_drawn() -> None:
     with pytest.raises(ValueError, match="at least one link"):
         design_svg(read_design(""), title="nothing")

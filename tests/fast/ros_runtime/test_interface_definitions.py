@@ -81,13 +81,13 @@ def test_the_separators_are_counted(tmp_path: Path, file: str, count: int) -> No
     assert problem.wrong == f"it has {count} lines that are exactly ---"
 
 
-def test_a_name_stands_once_in_a_part_and_again_in_the_next(tmp_path: Path) -> None:
+def test_a_name_is_unique_in_a_part_but_may_recur_in_the_next(tmp_path: Path) -> None:
     (problem,) = problems_of(tmp_path, Go__srv="int32 a\nfloat64 a\n---\nint32 a\n")
     assert (problem.line, problem.wrong) == (2, "this part already has a a")
 
 
 @pytest.mark.parametrize("name", ["compute_ik", "goHome", "2Go"])
-def test_a_file_is_called_as_a_type(tmp_path: Path, name: str) -> None:
+def test_a_files_name_must_be_a_type_name(tmp_path: Path, name: str) -> None:
     (problem,) = problems_of(tmp_path, **{f"{name}__msg": "int32 a\n"})
     assert problem.wrong == f"'{name}' cannot be the name of a type"
     assert problem.expected.startswith("a name such as ")
@@ -102,7 +102,7 @@ def test_all_problems_of_all_files_are_reported_at_once(tmp_path: Path) -> None:
     ]
 
 
-def test_an_empty_folder_and_a_file_that_is_no_text_are_named(tmp_path: Path) -> None:
+def test_an_empty_folder_and_a_file_that_is_not_text_are_named(tmp_path: Path) -> None:
     (nothing,) = problems_of(tmp_path)
     assert nothing.wrong == "there is no definition in this folder"
     (tmp_path / "Go.msg").write_bytes(b"int32 a\n\xff\xfe")
@@ -117,7 +117,7 @@ def test_two_files_of_one_name_are_refused(tmp_path: Path) -> None:
     assert problem.wrong == "the folder has two files of this name"
 
 
-def test_a_sound_definition_is_read_with_fields_constants_and_packages(tmp_path: Path) -> None:
+def test_a_valid_definition_is_read_with_fields_constants_and_packages(tmp_path: Path) -> None:
     (tmp_path / "action").mkdir()
     (tmp_path / "action/Go.action").write_text(
         '# Go there.\nWaypoint[<=3] via  # m\ngeometry_msgs/PoseStamped pose\nstring<=8 mode "walk"\n'

@@ -24,7 +24,7 @@ def test_only_the_versions_of_jazzy_are_repaired(version, affected):
 
 
 @pytest.mark.parametrize("scenario", [*FAULTS, "while_a_daemon_thread_spins"])
-def test_a_sound_node_ends_well(scenario):
+def test_a_correct_node_ends_with_status_0(scenario):
     done = run_scenario(SCENARIOS, scenario)
     assert done.returncode == 0, done.stderr
 

@@ -41,7 +41,7 @@ def test_a_sourced_jazzy_is_used_as_colcon_would_use_it(jazzy: Path) -> None:
 @pytest.mark.parametrize(
     "difference", [{"ROS_DISTRO": "humble"}, {"ROS_DISTRO": ""}, {"AMENT_PREFIX_PATH": "/elsewhere"}]
 )
-def test_another_ros_is_not_taken_for_a_sourced_jazzy(jazzy: Path, difference: dict[str, str]) -> None:
+def test_another_ros_distribution_is_ignored(jazzy: Path, difference: dict[str, str]) -> None:
     environ = {"ROS_DISTRO": "jazzy", "AMENT_PREFIX_PATH": str(jazzy)}
     sourced_prefixes = build_environment.sourced_prefixes
     assert sourced_prefixes(environ) == [jazzy]

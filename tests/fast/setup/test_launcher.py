@@ -100,7 +100,7 @@ def test_a_new_date_of_the_same_content_changes_nothing(clone: Path) -> None:
     assert state(clone) == "ready"
 
 
-def test_an_interrupted_set_up_is_begun_again(clone: Path) -> None:
+def test_an_interrupted_set_up_is_restarted(clone: Path) -> None:
     (clone / ".venv/course.stamp").unlink()
 
     assert state(clone) == "missing"
@@ -121,7 +121,7 @@ def test_a_moved_clone_needs_its_environment_made_again(clone: Path) -> None:
     assert state(moved) == "moved"
 
 
-def test_sourcing_ros_2_jazzy_asks_for_an_environment_that_uses_it(clone: Path, tmp_path: Path) -> None:
+def test_sourcing_ros_2_jazzy_requires_an_environment_that_uses_it(clone: Path, tmp_path: Path) -> None:
     prefix = tmp_path / "opt/ros/jazzy"
     (prefix / "lib/python3.12/site-packages/rclpy").mkdir(parents=True)
 
@@ -165,7 +165,7 @@ def test_a_colon_in_its_path_is_refused_in_a_sentence(clone: Path) -> None:
 
 
 @pytest.mark.parametrize("home", ["", "/nonexistent"])
-def test_without_a_usable_home_the_clone_serves_as_one(clone: Path, home: str) -> None:
+def test_without_a_usable_home_the_clone_is_used_as_home(clone: Path, home: str) -> None:
     (clone / ".venv/bin/course").write_text('#!/bin/sh\necho "$HOME"\n')
     environment = {**os.environ, "HOME": home}
     environment.pop("ROS_DISTRO", None)

@@ -45,7 +45,7 @@ def test_a_student_gets_copies_that_can_be_written(shared: Path, tmp_path: Path)
     assert (folder / "chapters/01.ipynb").stat().st_mode & 0o200
 
 
-def test_work_that_is_there_stays_as_it_is_and_what_is_new_comes(shared: Path, tmp_path: Path) -> None:
+def test_existing_work_is_not_changed_and_new_files_are_added(shared: Path, tmp_path: Path) -> None:
     mine = work_folder() / "chapters/01.ipynb"
     mine.write_text("mine")
     (shared / "chapters/02.ipynb").write_text("theirs")

@@ -24,7 +24,7 @@ def write_chapter(file: Path, *sources: str) -> nbformat.NotebookNode:
     return notebook
 
 
-def test_a_chapter_is_shown_with_its_outputs_and_the_last_picture_of_the_live_view(tmp_path: Path) -> None:
+def test_a_chapter_has_its_outputs_and_the_last_picture_of_the_live_view(tmp_path: Path) -> None:
     notebook = write_chapter(
         tmp_path / "01_a.ipynb",
         "import lab\n\nlab.start_robot()\nlab.watch_robot()",
@@ -64,7 +64,7 @@ def test_a_chapter_that_fails_names_the_cell(tmp_path: Path, source: str, said: 
     assert str(failed.value) == said
 
 
-def test_ctrl_c_ends_the_kernel_and_says_so(tmp_path: Path) -> None:
+def test_ctrl_c_ends_the_kernel_and_is_reported(tmp_path: Path) -> None:
     write_chapter(tmp_path / "01_a.ipynb", "import time\nprint(1)\ntime.sleep(60)")
     began = []
 

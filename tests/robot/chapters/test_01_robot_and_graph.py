@@ -271,5 +271,5 @@ def test_the_gap_of_the_metre_says_what_is_wrong(robot_and_gaps: GapTrials, line
         ),
     ],
 )
-def test_other_sound_lines_are_accepted(robot_and_gaps: GapTrials, file: str, lines: str) -> None:
+def test_other_correct_lines_are_accepted(robot_and_gaps: GapTrials, file: str, lines: str) -> None:
     assert "✓" in robot_and_gaps.accept(file, lines)

@@ -171,7 +171,7 @@ def test_the_gap_of_the_deadline_asks_for_the_one_before_it(gaps: GapTrials) -> 
         ),
     ],
 )
-def test_other_sound_lines_fill_the_gaps(gaps: GapTrials, file: str, lines: str) -> None:
+def test_other_correct_lines_fill_the_gaps(gaps: GapTrials, file: str, lines: str) -> None:
     gaps.run(f"%%writefile ask_once.py\n{ONE_TRY}")
     assert f"✓ {file}" in gaps.accept(file, lines)
 

@@ -145,5 +145,5 @@ def test_the_gap_of_two_requests_says_what_is_wrong(gaps: GapTrials, lines: str,
         ),
     ],
 )
-def test_other_sound_lines_fill_the_gaps(gaps: GapTrials, file: str, lines: str) -> None:
+def test_other_correct_lines_fill_the_gaps(gaps: GapTrials, file: str, lines: str) -> None:
     assert f"✓ {file}" in gaps.accept(file, lines)

@@ -392,7 +392,7 @@ def test_the_gap_of_the_status_says_what_is_wrong(gaps: GapTrials, lines: str, s
         ),
     ],
 )
-def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: str) -> None:
+def test_the_gaps_accept_other_correct_lines(gaps: GapTrials, file: str, lines: str) -> None:
     assert f"✓ {file}" in gaps.accept(file, lines)
 
 

@@ -282,5 +282,5 @@ def test_the_gap_of_the_lasting_condition_says_what_is_wrong(gaps: GapTrials, li
         ("start.yaml", "/**:\n  ros__parameters: {speed: 0.2, turn: 0.25}"),
     ],
 )
-def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: str) -> None:
+def test_the_gaps_accept_other_correct_lines(gaps: GapTrials, file: str, lines: str) -> None:
     assert f"✓ {file}" in gaps.accept(file, lines)

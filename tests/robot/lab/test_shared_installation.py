@@ -79,7 +79,7 @@ def line_with(process: subprocess.Popen[str], word: str) -> list[str]:
     raise AssertionError("".join(printed))
 
 
-def test_each_walks_a_robot_and_sees_no_other(homes: dict[int, Path]) -> None:
+def test_each_student_walks_a_robot_and_discovers_no_other(homes: dict[int, Path]) -> None:
     sessions = {}
     for user, way in STUDENTS.items():
         python = str(PROJECT / ".venv/bin/python")
@@ -109,7 +109,7 @@ def test_each_walks_a_robot_and_sees_no_other(homes: dict[int, Path]) -> None:
             session.communicate()
 
 
-def test_the_launcher_gives_each_notebooks_of_their_own(homes: dict[int, Path]) -> None:
+def test_the_launcher_gives_each_student_own_notebooks(homes: dict[int, Path]) -> None:
     for user, home in homes.items():
         started = subprocess.run(
             as_student(user, home, str(PROJECT / "course"), "lab", "--version"),

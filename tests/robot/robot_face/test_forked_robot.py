@@ -24,7 +24,7 @@ sys.exit(os.waitstatus_to_exitcode(os.waitpid(robot, 0)[1]))
 """
 
 
-def test_a_forked_robot_reports_obeys_and_ends_at_sigterm():
+def test_a_forked_robot_publishes_executes_commands_and_ends_at_sigterm():
     truth_read, truth_write = os.pipe()
     control_read, control_write = os.pipe()
     pipes = ("--ground-truth-fd", str(truth_write), "--control-fd", str(control_read))

@@ -54,7 +54,7 @@ def vectors(messages, *names):
     return np.array([np.concatenate([numbers(message, name) for name in names]) for message in messages])
 
 
-def test_it_offers_the_same_topics_with_the_same_terms(robots):
+def test_the_resting_robot_has_the_same_topics_types_and_qos(robots):
     def offered(robot):
         return {
             (topic, kind, info.qos_profile.reliability, info.qos_profile.durability)
@@ -70,7 +70,7 @@ def test_it_offers_the_same_topics_with_the_same_terms(robots):
 
 
 @pytest.mark.parametrize("topic", HEARD)
-def test_it_speaks_as_often_and_stamps_as_evenly(received, topic):
+def test_the_resting_robot_publishes_at_the_same_rate_with_regular_stamps(received, topic):
     rate = HEARD[topic][3]
     for messages in received[topic]:
         stamps = [message.header.stamp.sec + message.header.stamp.nanosec * 1e-9 for message in messages]
@@ -78,7 +78,7 @@ def test_it_speaks_as_often_and_stamps_as_evenly(received, topic):
         assert said_since_we_listen.mean() == pytest.approx(1 / rate / FASTER, rel=0.3)
 
 
-def test_it_is_where_the_other_is(received):
+def test_the_resting_robot_has_the_same_pose_and_joint_states(received):
     fields = ("pose.pose.position", "pose.pose.orientation", "twist.twist.linear", "twist.twist.angular")
     resting, integrated = (vectors(messages, *fields) for messages in received["odom"])
     assert resting == pytest.approx(integrated, abs=1e-5)
@@ -88,7 +88,7 @@ def test_it_is_where_the_other_is(received):
     assert resting == pytest.approx(integrated, abs=1e-2)
 
 
-def test_its_hands_are_where_the_others_are_and_its_feet_carry_as_much(received):
+def test_the_resting_robot_has_the_same_hand_poses_and_foot_loads(received):
     resting, integrated = (
         vectors(messages, "pose.position", "pose.orientation") for messages in received["l_hand/pose"]
     )
@@ -99,7 +99,7 @@ def test_its_hands_are_where_the_others_are_and_its_feet_carry_as_much(received)
     assert resting == pytest.approx(integrated, abs=0.05)
 
 
-def test_its_inertial_sensor_is_as_noisy(received):
+def test_the_resting_robots_imu_has_the_same_noise(received):
     for field, least in (("angular_velocity", 1e-4), ("linear_acceleration", 1e-3)):
         resting, integrated = (vectors(messages, field) for messages in received["imu"])
         assert (resting.std(axis=0) > least).all()
@@ -110,7 +110,7 @@ def test_its_inertial_sensor_is_as_noisy(received):
         assert len(np.unique(resting, axis=0)) == len(resting)  # no reading is given twice
 
 
-def test_its_battery_drains_as_fast(received):
+def test_the_resting_robots_battery_drains_at_the_same_rate(received):
     def rate(messages):
         """From one message to the next; on a busy machine one may be lost."""
         return np.median(np.diff(vectors(messages, "percentage")[:, 0]))
@@ -122,14 +122,14 @@ def test_its_battery_drains_as_fast(received):
     assert vectors(resting, *fields) == pytest.approx(vectors(integrated, *fields), rel=1e-3)
 
 
-def test_it_says_the_same_of_itself(received):
+def test_the_resting_robot_publishes_the_same_robot_state(received):
     resting, integrated = (
         vectors(messages, "mode", "motors_enabled", "steps") for messages in received["robot_state"]
     )
     assert (resting == integrated).all()
 
 
-def test_it_walks_as_soon_as_it_is_told_to(robots):
+def test_the_resting_robot_walks_at_a_command(robots):
     command = Twist()
     command.linear.x = 0.2
     for robot in robots:

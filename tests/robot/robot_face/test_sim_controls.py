@@ -32,7 +32,7 @@ def number(robot, name, data):
     return robot.call(SetFloat64, f"/sim/{name}", SetFloat64.Request(data=data))
 
 
-def test_a_paused_simulation_stands_still_and_steps_as_far_as_asked(robot):
+def test_a_paused_simulation_stands_still_and_steps_the_requested_time(robot):
     clock = []
     robot.node.create_subscription(Clock, "/clock", lambda message: clock.append(seconds(message)), 10)
     robot.one(Clock, "/clock")
@@ -85,7 +85,7 @@ def test_the_pace_is_set(robot):
     assert "expected 0" in number(robot, "set_real_time_factor", -1.0).message
 
 
-def test_a_joint_is_held_until_another_or_none_is(robot):
+def test_a_joint_is_held_until_another_name_or_an_empty_one(robot):
     def bend(joint, position):
         point = JointTrajectoryPoint(positions=[position], time_from_start=Duration(sec=1))
         robot.publish(JointTrajectory(joint_names=[joint], points=[point]), "joint_trajectory")
