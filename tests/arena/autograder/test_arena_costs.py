@@ -1,4 +1,4 @@
-"""`course bench --arena`: what is measured and what is written; never how much it is."""
+"""`course bench --arena`: which costs are measured and written, without their values."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The table of clauses is what the recorded transcripts show, and every clause is held by something."""
+"""The table of clauses matches the recorded transcripts, and every clause is tested by a check or an obligation."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The arena of a submission: what its scenarios share, and what they and other submissions never see of each other."""
+"""The arena of a submission: what its scenarios share, and how it is separated from other scenarios and submissions."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ pytestmark = pytest.mark.skipif(
 QUIZ = Exercise("patterns", exercises_folder() / "patterns", (), False)
 PROGRAM = Scenario("print_answers", robot=None, student="program")
 
-# It leaves a process that cannot be interrupted, files, a socket and a segment of memory, and looks for all of them.
+# It leaves a process that ignores signals, files, a socket and shared memory, and searches for all of them.
 LEAVES_TRACES = """
 import os, signal, socket, sys, time
 me = str(os.getpid())

@@ -1,4 +1,4 @@
-"""After hostile submissions nothing is left on the machine, and the next submission's grade is as without them."""
+"""Hostile submissions leave nothing on the machine and do not change the next submission's grade."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ AT_FIRST = (
 
 
 def caught_only(known: KnownSubmission) -> Exercise:
-    """The exercise with the checks that must catch it, and those they need; the audit's test makes all of them."""
+    """The exercise with only the checks that must catch the submission, and those they need."""
     exercise = load_exercise(known.exercise, hidden=True)
     needed = {need.id for check in exercise.checks if check.id in known.caught_by for need in check.needs}
     wanted = {*known.caught_by, *needed}

@@ -1,4 +1,4 @@
-"""A scripted action, as a client of rclpy's meets it in an arena: good, bad, and in the middle of it gone."""
+"""A scripted action, used by an rclpy client in an arena: correct, faulty, and ended during a goal."""
 
 from __future__ import annotations
 
@@ -181,7 +181,7 @@ def arenas(exercise: Exercise) -> Iterator[SubmissionArenas]:
 
 
 def run(exercise: Exercise, arenas: SubmissionArenas, scenario: str) -> tuple[Transcript, list[str]]:
-    """What was recorded, and what the client printed."""
+    """The transcript, and the output of the client."""
     transcript = run_in_arena(
         ArenaRun(exercise, {f"{NAME}.py": CLIENT.encode()}, program(scenario)), arenas=arenas
     )

@@ -1,4 +1,4 @@
-"""A server that asks the grader's service, reads its topic and publishes: what a stage offers, hears and records."""
+"""A server that calls the grader's service, subscribes to its topic and publishes: all of this is recorded."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ctrl-C while scenarios run: the batch ends soon, says how to go on, and leaves nothing behind."""
+"""Ctrl-C while scenarios run: the batch ends soon, prints how to resume, and leaves nothing behind."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ COMMAND = (Path(sys.executable).with_name("course"), "grade", "submitted", "--ou
 
 
 def running(grader: psutil.Process) -> int:
-    """How many students' programs run."""
+    """The number of students' programs that run."""
     found = 0
     for process in grader.children(recursive=True):
         try:

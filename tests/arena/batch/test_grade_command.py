@@ -54,7 +54,7 @@ def hand_in(folder: Path, student: str, content: bytes) -> None:
 
 
 def assert_pages(out: Path, right: dict, wrong: dict) -> None:
-    """The class page names both; a failed check is drawn for its student, also when its grade is an earlier run's."""
+    """The class page names both students; the failed check has its drawing, also if its grade is of an earlier run."""
     class_page = (out / "class.html").read_text()
     assert f"{right['score']}/{right['max_score']}" in class_page
     failed = next(check for check in wrong["checks"] if check["status"] == "failed" and not check["hidden"])
@@ -67,7 +67,7 @@ def assert_pages(out: Path, right: dict, wrong: dict) -> None:
 
 
 def assert_recorded(out: Path, first: dict, anna: dict, bert: dict) -> None:
-    """The second run went on with the seed of the first, and its record has what the first run found of both."""
+    """The second run used the seed of the first, and its record has the first run's results of both students."""
     second = json.loads((out / "batch.json").read_text())
     assert second["seed"] == first["seed"] == anna["seed"] == bert["seed"]
     assert second["submissions"][:2] == first["submissions"]
@@ -89,7 +89,7 @@ def points(folder: Path, exercise: str = "battery_service") -> dict[str, float]:
 
 
 def class_rows(out: Path) -> dict[str, str]:
-    """What the class page's last table says of each student."""
+    """The rows of the class page's last table, by student."""
     page = BeautifulSoup((out / "class.html").read_text(), "html.parser")
     rows = page.find(id="students").find_next("tbody").find_all("tr")
     return {row.find("th").get_text(): str(row) for row in rows}

@@ -1,4 +1,4 @@
-"""`course grade --watch`: what is handed in is graded as it comes, until Ctrl-C. A function stands for the arenas."""
+"""`course grade --watch` grades submissions as they arrive, until Ctrl-C. A function replaces the arenas."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 EXERCISE = "battery_service"
-# Points by a word in the source; "slow" is in work until the test writes a file, and the stop is heeded.
+# Points by a word in the source; "slow" is being graded until the test writes a file or the watcher stops.
 JUDGE = """
 import sys, time
 from pathlib import Path
@@ -83,7 +83,7 @@ def ctrl_c(process: subprocess.Popen[str]) -> tuple[int, str]:
 
 
 def until(process: subprocess.Popen[str], happened: Callable[[], Any]) -> None:
-    """Wait for an event, as long as the watcher lives, for two minutes."""
+    """Wait for an event while the watcher runs, for at most two minutes."""
     end = time.monotonic() + 120.0
     while not happened():
         assert process.poll() is None, process.communicate()[0]
@@ -105,7 +105,7 @@ def record(folder: Path) -> dict[str, Any]:
 
 
 def scores(folder: Path) -> dict[str, float]:
-    """By student, from grades.json, once the pages of all of them are there, too."""
+    """The scores by student, from grades.json, as soon as all pages exist, too."""
     path = folder / "graded/grades.json"
     grades = json.loads(path.read_text()) if path.exists() else []
     return (
@@ -124,7 +124,7 @@ def test_the_latest_submission_counts_and_a_second_run_resumes(tmp_path: Path) -
     with watching(tmp_path) as watcher:
         hand_in(tmp_path, "anna", "slow and wrong")
         until(watcher, lambda: in_work(tmp_path))
-        hand_in(tmp_path, "anna", "right")  # while the first is in work
+        hand_in(tmp_path, "anna", "right")  # while the first is being graded
         hand_in(tmp_path, "bert", "right, too")
         until(watcher, lambda: scores(tmp_path) == {"bert": 1.0})
         (tmp_path / "go").touch()

@@ -1,4 +1,4 @@
-"""Generated programs in arenas: each is graded, none gets full marks, changes the next grade or leaves anything."""
+"""Generated programs in arenas: each is graded, and none gets full marks, changes the next grade or leaves residue."""
 
 from __future__ import annotations
 

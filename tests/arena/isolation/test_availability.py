@@ -1,4 +1,4 @@
-"""What the machine offers is found out by trying, and said."""
+"""The machine's kinds of isolation are found by trying them, and reported."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Two nodes, the trusted one in the arena and the student's in its sandbox, find each other and talk."""
+"""A trusted node in the arena and a student's node in its sandbox discover each other and communicate."""
 
 from __future__ import annotations
 

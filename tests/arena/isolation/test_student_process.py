@@ -1,4 +1,4 @@
-"""What the trusted process in an arena relies on: the program runs, is heard, can be signalled, is gone at the end."""
+"""The trusted process in an arena can run the program, read its output, send signals to it and end it."""
 
 from __future__ import annotations
 
@@ -158,7 +158,7 @@ def test_an_endless_line_is_kept_in_pieces(kind: Kind) -> None:
 
 
 def test_nothing_it_started_outlives_it(namespaces: Kind) -> None:
-    """The daemon closes what it inherited and leaves its session; the trusted process finds nothing below itself."""
+    """The daemon closes inherited files and leaves its session; at the end the trusted process has no children."""
     code = """
 import os, signal
 if os.fork() == 0:

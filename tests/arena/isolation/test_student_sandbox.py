@@ -1,4 +1,4 @@
-"""What a hostile program cannot do, tried from inside."""
+"""Tests from inside the sandbox what a hostile program cannot do."""
 
 from __future__ import annotations
 
@@ -239,7 +239,7 @@ def test_an_endless_loop_ends_at_the_deadline(kind: Kind) -> None:
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="these tests are already run by an ordinary user")
 def test_an_ordinary_user_can_start_arenas_too(namespaces: Kind) -> None:
-    """Root's arenas start in another way than everybody else's."""
+    """Arenas of root start in another way than those of other users."""
     python = "/usr/bin/python3"
     become = ["/usr/bin/setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "--no-new-privs"]
     if not os.access(python, os.X_OK):

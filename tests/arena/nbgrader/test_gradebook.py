@@ -32,7 +32,7 @@ HIDDEN = [check for check in EXERCISE.checks if check.hidden]
 
 
 def submission(course, student):
-    """The score, the highest possible one, each cell's points and what still needs a person, from the database."""
+    """Score, maximum, each cell's points, and whether a person must mark it, from the database."""
     with Gradebook(f"sqlite:///{course / 'gradebook.db'}") as db:
         notebook = db.find_submission_notebook("battery_service", "battery_service", student)
         cells = {grade.name: grade.auto_score for grade in notebook.grades}
@@ -126,7 +126,7 @@ def test_an_ungraded_submission_has_no_score_and_nbgrader_cannot_add_one(gradebo
     gradebook.enter(Entry(grade_of("bert"), SOURCES))
     with pytest.raises(MissingEntry):
         submission(course, "anna")
-    # Someone presses "Autograde" in formgrader for a submission that lies there all the same.
+    # An instructor clicks "Autograde" in formgrader although the submission was graded already.
     (course / "submitted/bert").rename(course / "submitted/anna")
     with pytest.raises(NbgraderError, match="anna's battery_service was not graded"):
         call(open_course(course).autograde, "battery_service", "anna")
@@ -174,7 +174,7 @@ def test_students_see_only_whether_hidden_checks_passed(gradebook, course):
         assert check.id not in shown
         assert check.title not in shown
     assert "hidden_1" in shown
-    # The instructor's record has it all.
+    # The instructor's record has everything.
     assert "SECRET-4" in (course / "records/anna.json").read_text()
 
 

@@ -1,4 +1,4 @@
-"""Whatever a student's notebook holds, it costs nobody else a grade and runs nowhere in the grader."""
+"""Whatever a student's notebook contains, it costs no other student a grade, and the grader never executes it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Students get everything they need to work and nothing that would do their work for them."""
+"""The students' archive has everything that they need, and no solutions."""
 
 from __future__ import annotations
 
@@ -163,7 +163,7 @@ def test_files_written_by_cells_are_not_in_the_archive(unpacked):
 
 @pytest.fixture
 def repository(unpacked, tmp_path) -> Path:
-    """The archive in a student's repository, where this environment stands for the one that the launcher would make."""
+    """The archive in a student's repository, with this environment instead of one that the launcher would make."""
     folder = shutil.copytree(unpacked, tmp_path / "repository")
     launcher = f"exec {sys.executable} -c 'from course_cli.app import main; main()' \"$@\"\n"
     (folder / "course").write_text(f"#!/bin/sh\nexport PYTHONPATH={folder}\n{launcher}")

@@ -1,4 +1,4 @@
-"""Exercises of somebody else's repository, with this engine: checked, graded, audited, released."""
+"""Exercises of another repository are checked, graded, audited and released with this engine."""
 
 from __future__ import annotations
 

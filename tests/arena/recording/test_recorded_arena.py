@@ -1,4 +1,4 @@
-"""Recordings of real arenas: the robot's true motion is in them, and grades are the same with and without."""
+"""Recordings of real arenas contain the robot's true motion, and grades are the same with and without them."""
 
 from __future__ import annotations
 

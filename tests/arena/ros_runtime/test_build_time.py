@@ -1,4 +1,4 @@
-"""A build may use so much of a processor and no more, whoever of its processes uses it."""
+"""The processor time of a build is limited, whichever of its processes uses it."""
 
 from __future__ import annotations
 

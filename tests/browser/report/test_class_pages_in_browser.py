@@ -1,4 +1,4 @@
-"""The pages of a graded class opened from the disk: by keyboard, in the dark, on a phone, without a network."""
+"""The pages of a graded class, opened from disk: by keyboard, in dark mode, on a phone, without a network."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def grade(student: str, status: str, exercise: str) -> Grade:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The pages of a class of two, of which one failed a check in five exercises."""
+    """The pages of a class of two students, one of whom failed a check in each of five exercises."""
     folder = tmp_path_factory.mktemp("graded")
     drawing = bars_svg({"0 to 9": 3, "10": 1}, title="How fast", across="speed", up="walks")
     grades = [
@@ -51,7 +51,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def page(folder: Path) -> Iterator[Page]:
-    """The class page, which may load nothing and run nothing."""
+    """The class page, in a browser that loads no files and runs no scripts."""
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=OFFLINE)
         page = browser.new_page(viewport={"width": 1200, "height": 900}, color_scheme="dark")

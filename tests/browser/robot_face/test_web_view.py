@@ -1,4 +1,4 @@
-"""The robot in a browser: reachable from this machine alone, and seen."""
+"""The robot's view in a browser: it is reachable only from this machine, and it shows the robot."""
 
 import io
 import os
@@ -26,14 +26,14 @@ TIMEOUT = 60.0  # s
 
 @pytest.fixture(scope="module")
 def url():
-    """The view of a robot in a process of its own: MuJoCo's viewer can be opened once in a process."""
+    """The address of a robot's view, in a process of its own, because a process can open MuJoCo's viewer only once."""
     with viewed_robot() as (_, url):
         yield url
 
 
 @contextmanager
 def viewed_robot(*options):
-    """A robot with a view; yields its process and the view's address, or "" if it has ended."""
+    """Start a robot with a view; yield its process and the view's address, or "" if the process has ended."""
     command = [sys.executable, "-m", "robot_sim", "--view", *options]
     domain = ReservedDomain()
     environment = {
@@ -114,7 +114,7 @@ def test_a_browser_shows_the_robot(url):
 
 
 def shows_the_robot(screenshot):
-    """The plate on its chest is blue and its body bright, and nothing else in the scene is."""
+    """Whether the picture has the blue of the robot's chest and its bright body, which nothing else has."""
     pixels = np.asarray(Image.open(io.BytesIO(screenshot)).convert("RGB")).astype(int)
     middle = pixels[50:450, 300:500].reshape(-1, 3)
     blue = middle[:, 2] > middle[:, 0] + 60

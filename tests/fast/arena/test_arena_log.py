@@ -1,4 +1,4 @@
-"""What a transcript keeps of what students send, and how it says what it did not keep."""
+"""Limits of a transcript: what is recorded of a student's messages, and how dropped ones are reported."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from ros_runtime.recorded_client.conversation import UNKNOWN_GOAL
 
 
 class Recording:
-    """A log, and the events it has written into its file."""
+    """A log, and the events that it has written to its file."""
 
     def __init__(self, path: Any) -> None:
         self._path = path

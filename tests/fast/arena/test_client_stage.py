@@ -1,4 +1,4 @@
-"""A student's program that never ends, or is gone before anybody saw it, holds nothing up."""
+"""A student's program that never ends, or ends before it is discovered, delays nothing."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from autograder.arena.phases import Phases
 
 
 class FakeNode:
-    """A node in a graph of which every question fails."""
+    """A node for which every query of the graph fails."""
 
     def __getattr__(self, question: str) -> Any:
         def fail(*_: Any) -> None:
@@ -26,7 +26,7 @@ class FakeNode:
 
 
 class FakeStudent:
-    """A program that is started, and has ended or has not."""
+    """A program that was started; it runs or has ended."""
 
     def __init__(self, has_exited: bool) -> None:
         self._has_exited = has_exited

@@ -1,4 +1,4 @@
-"""Whatever stands in the ROS graph: every question has an answer, and what is odd is recorded."""
+"""Whatever the ROS graph contains, every query returns a result, and unusual entries are recorded."""
 
 from __future__ import annotations
 
@@ -129,7 +129,7 @@ def test_the_topics_of_a_students_node_are_distinguished_from_the_robots(log: Ar
 
 
 class Server(NamedTuple):
-    """What the graph says of a server."""
+    """A server as the graph describes it."""
 
     topic_type: str
 

@@ -1,4 +1,4 @@
-"""How fast a total grew at most, and what a program lost to other programs, whenever they are looked at."""
+"""The highest growth rate of a total, and the processor time that a program lost to others, at any sampling."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What is recorded of a server's answers, whatever their size and whenever they come."""
+"""How a server's answers are recorded, whatever their size and time of arrival."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ SOON = 0.01  # s
 
 
 class FakeEndpoint:
-    """A client or a service: requests are kept, and a test answers them by setting their futures."""
+    """A client or a service that stores requests; a test answers them by setting their futures."""
 
     def __init__(self) -> None:
         self.futures: list[Future] = []
@@ -49,7 +49,7 @@ class FakeEndpoint:
 
 
 class FakeNode:
-    """Makes endpoints of one kind for everything."""
+    """A node that makes fake endpoints only."""
 
     def __init__(self) -> None:
         self.endpoints: list[FakeEndpoint] = []
@@ -69,7 +69,7 @@ def service_client(log: ArenaLog) -> tuple[ServiceClient, FakeEndpoint]:
 
 
 class Walking:
-    """A client of walk_to that has sent one goal, and the ends of its services and topics."""
+    """A client of walk_to that has sent one goal, and the fake endpoints of the action."""
 
     def __init__(self, log: ArenaLog) -> None:
         node: Any = FakeNode()

@@ -1,4 +1,4 @@
-"""The agent's executor goes on, whatever a message makes rclpy raise."""
+"""The agent's executor keeps spinning, whatever exception rclpy raises for a message."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A scenario's end: what was sent before is still taken in, and a flood without end is told."""
+"""The end of a scenario: earlier messages are still received, and an endless flood is recorded."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from autograder.arena.offering import FLOODED, QUIET, Offering
 
 
 class Kept:
-    """Stands for a log and a graph: the log has received so many messages at each look."""
+    """Stands for a log and a graph; at each poll the log has received a given number of messages."""
 
     def __init__(self, received: Iterator[int]) -> None:
         self._received = received
@@ -44,7 +44,7 @@ def stage_of(kept: Any) -> Offering:
 
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Time passes only while somebody sleeps."""
+    """A clock that advances only during `sleep`."""
     now = [0.0]
 
     def sleep(duration: float) -> None:

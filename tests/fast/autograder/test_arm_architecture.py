@@ -1,4 +1,4 @@
-"""The essay on a six-joint arm: its rubric, its marked samples, the answers that instructors compare with."""
+"""The essay on a six-joint arm: its rubric, its marked samples, and the model answers for instructors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is required of an arm: its plan, where it arrived, what was said of it."""
+"""The requirements on an arm: its trajectory, its final position, and the feedback and result about it."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def given_up(
 
 
 def held(said: str, afterwards: float = HELD) -> Any:
-    """A run in which the elbow was held on a long way from 3 s on, and let go at 5 s: it turned to `afterwards`."""
+    """A run in which the elbow was held from 3 s to 5 s during a long motion; then it turned to `afterwards`."""
     hold = ev.RobotCommanded(t=3.0, command={"do": "hold_joint", "joint": ELBOW})
     release = ev.RobotCommanded(t=5.0, command={"do": "release_joint", "joint": ELBOW})
 
@@ -185,7 +185,7 @@ def test_a_blocked_arm_strays_and_one_that_goes_on_later_has_not_held() -> None:
 
 
 def silenced(code: int) -> Any:
-    """The goal of a slow motion, given up 1.3 s after joint_states stopped; the arm holds from then on."""
+    """A goal of a slow motion that was aborted 1.3 s after joint_states stopped; the arm holds from then on."""
     lost = ev.RobotCommanded(t=4.0, command={"do": "joint_sensors", "connected": False})
     run = given_up(lambda t: START - 0.15 * min(max(t - BEGIN, 0.0), 3.3), code, lost, after=3.3)
     run.goal("move").request.trajectory = trajectory((8, START - 1.2))

@@ -1,4 +1,4 @@
-"""What the audit says about a grade that differs from what is known."""
+"""The findings of an audit about a grade that differs from the known one."""
 
 from io import StringIO
 from pathlib import Path

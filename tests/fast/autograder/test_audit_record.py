@@ -1,4 +1,4 @@
-"""An audit that is interrupted goes on where it stopped, and never with a verdict on something else."""
+"""A resumed audit reuses recorded verdicts, but never for a changed submission or other inputs."""
 
 import dataclasses
 import json
@@ -36,7 +36,7 @@ def path(tmp_path):
 
 
 def audited(path, run):
-    """Write a record as an audit does, which asks it first and then grades."""
+    """Write a record as an audit does: it looks up each run before it grades."""
     record = AuditRecord(path, isolation=ISOLATED)
     assert record.earlier_run(run.known, EXERCISE, run.repetition, run.grade.seed) is None
     record.add(run, EXERCISE)

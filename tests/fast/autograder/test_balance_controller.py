@@ -1,4 +1,4 @@
-"""What a balance controller is told that publishes too much, too little, or the wrong gains for what it accepted."""
+"""The failures of a balance controller that publishes too often, too rarely, or wrong gains for an accepted set."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a run of the battery guard is judged, on records made by hand: sound clients and their near misses."""
+"""The checks of the battery guard on records made by hand: correct clients and slightly faulty ones."""
 
 import math
 from itertools import count

@@ -1,4 +1,4 @@
-"""What is said to a student whose node sent more than is read, or whose build went on for ever."""
+"""The failures of a node that sends more than is read, and of a build that does not end."""
 
 from __future__ import annotations
 

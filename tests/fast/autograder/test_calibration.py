@@ -1,4 +1,4 @@
-"""How a calibration has to end, and what one that goes wrong is told."""
+"""The required outcome of a calibration, and the failures of a wrong one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The clauses of a statement are read from its notebook, and a hidden check names the one it judges."""
+"""The clauses of a statement are read from its notebook, and a hidden check names the clause that it tests."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""How fast the clock of an arena goes: fast where nothing has to move, slowly where the machine is busy."""
+"""The scale of an arena's clock: high if no robot has to move, low if the machine is busy."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Angles are judged by where they bring the hand, and a known mistake is called by its name."""
+"""Angles are judged by the hand's position that results, and known mistakes are named."""
 
 import math
 

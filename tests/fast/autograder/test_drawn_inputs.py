@@ -1,4 +1,4 @@
-"""The inputs that scenarios draw, over many seeds: they can be carried out, name everything once, and are in bounds.
+"""The inputs that scenarios draw, over many seeds: they can be executed, have unique names, and are in bounds.
 
 A seed is any number, and each batch has a new one: what fails once in a thousand draws fails a class. 100,000 seeds
 take half an hour: DRAWN_SEEDS=100000 .venv/bin/pytest tests/fast/autograder/test_drawn_inputs.py -n 4
@@ -35,7 +35,7 @@ BOUNDS = {
 
 
 class StandIn(int):
-    """Stands for a stage and all it gives: any attribute, call and number, and the names by the arena's own rule."""
+    """Stands for a stage: it accepts any attribute and call, and names requests by the arena's own rule."""
 
     names: Conversation
     kind = name = ""

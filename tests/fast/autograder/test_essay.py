@@ -1,4 +1,4 @@
-"""An essay is left to a person: no check, no points, no zero."""
+"""An essay is marked by a person: it has no checks, and before that no points, not even zero."""
 
 from __future__ import annotations
 

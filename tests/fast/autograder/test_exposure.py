@@ -1,4 +1,4 @@
-"""Nothing is graded where a sandbox would show solutions, hidden checks or other students' work."""
+"""Grading is refused if a sandbox would contain solutions, hidden checks or other students' work."""
 
 from __future__ import annotations
 

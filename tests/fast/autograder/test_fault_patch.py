@@ -1,4 +1,4 @@
-"""A faulty submission is what differs from a correct one, and the whole program comes back from it."""
+"""A faulty submission is stored as a patch of a correct one, from which the whole program is restored."""
 
 import pytest
 from typer.testing import CliRunner

@@ -1,4 +1,4 @@
-"""The operators that make mistakes in correct submissions, the mutants' names, and which of them are graded."""
+"""The mutation operators, the mutants' names, and the selection of mutants to grade."""
 
 import ast
 from collections import Counter

@@ -1,4 +1,4 @@
-"""How verdicts follow from given transcripts: dependencies, infrastructure failures, overload."""
+"""The verdicts for given transcripts: dependencies of checks, infrastructure failures, overload."""
 
 import sys
 from dataclasses import replace
@@ -64,7 +64,7 @@ def two_checks():
 
 
 def arenas(monkeypatch, answer):
-    """Let `answer(scenario, scale)` stand for an arena; returns the list of what was run."""
+    """Replace arenas by `answer(scenario, scale)`; return the list of the runs."""
     ran = []
 
     def run_in_arena(run, stop=None, arenas=None):

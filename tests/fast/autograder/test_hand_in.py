@@ -1,4 +1,4 @@
-"""Of all that lies in a hand-in, the latest real work counts, whatever its file is called; what does not is named."""
+"""The latest real work in a submitted folder is graded, whatever its file's name; the other files are named."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def notebook(program: str = WORK) -> str:
 
 
 def put(folder: Path, *files: str | tuple[str, str]) -> None:
-    """Write files with work in them, or with the given text; each an hour after the one before it."""
+    """Write files that contain work, or the given text; each is an hour newer than the previous one."""
     for number, file in enumerate(files):
         name, text = file if isinstance(file, tuple) else (file, "")
         path = folder / name

@@ -1,4 +1,4 @@
-"""What a definition lacks is said with the line to write, and where a --- is missing, that is said."""
+"""The failure of an incomplete definition names the missing line, or the missing ---."""
 
 import json
 from dataclasses import asdict

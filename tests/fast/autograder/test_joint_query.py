@@ -1,4 +1,4 @@
-"""An answer of the joint query is compared with every message that may have been the last."""
+"""A response of the joint query is compared with every message that may have been the latest one."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""A walk is judged by where the robot was and when, as the simulator says, and by what the server commanded."""
+"""A walk is judged by the simulator's poses of the robot over time, and by the server's commands."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a fetch is judged by its children, on records made by hand: a sound server and its near misses."""
+"""A fetch is judged by its child goals, on records made by hand: a correct server and slightly faulty ones."""
 
 from __future__ import annotations
 

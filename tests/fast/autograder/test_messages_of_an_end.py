@@ -1,4 +1,4 @@
-"""A program that ended by itself is told one remedy, chosen by its last words."""
+"""The failure of a program that ended by itself has one remedy, chosen by its last lines."""
 
 from __future__ import annotations
 

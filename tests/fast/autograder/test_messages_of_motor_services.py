@@ -1,4 +1,4 @@
-"""Motors that stay on are explained by what came on their topic."""
+"""Motors that stay on are explained by the messages on motor_power."""
 
 from __future__ import annotations
 

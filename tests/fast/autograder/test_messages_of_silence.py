@@ -1,4 +1,4 @@
-"""A program that does not answer, or offers another name, is told where it stands."""
+"""The failure of a program that does not answer names the running line; that of a wrong name, the nearest one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is missing from a transcript is said in a sentence, with the reason where there is one."""
+"""The failure for a missing event is a sentence, with the reason if one is known."""
 
 from dataclasses import replace
 
@@ -157,7 +157,7 @@ def test_each_limit_has_a_remedy_of_its_own(reason, help):
 
 
 def test_a_sound_program_on_a_busy_machine_is_not_to_blame():
-    """It has used no more than on an idle one, although it took longer, and started while it waited for others."""
+    """It used as much processor time as on an idle machine, but took longer, and waited for others at its start."""
     slow_start = replace(BUSY, cpu=3.5, wall=3.6, cpu_in_time=1.9, in_time=1.0, burst=1.2)
     for usage in (slow_start, replace(slow_start, cpu_in_time=4.0, in_time=30.0)):
         with pytest.raises(CannotBeJudged):

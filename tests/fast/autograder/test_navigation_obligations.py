@@ -1,4 +1,4 @@
-"""Goals of navigate_to_pose: judged with their own tolerance, and by what an operator did on the way to each."""
+"""Goals of navigate_to_pose are judged by their own tolerance and by the operator's actions during each goal."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from pathlib import Path
 PROJECT = Path(__file__).parents[3]
 SAYING = ("CannotBeJudged", "NotGraded", "NoOccasion", "unseen", "not_shown", "held_up", "not_graded")
 
-# The record lacks an event of the grader: the program had exited, been killed, or delayed the robot.
+# The record lacks an event of the grader, because the program exited, was killed, or delayed the robot.
 LEAVES = "arena/autograder/test_evidence.py::test_a_program_that_leaves_at_any_moment_is_judged"
 HOLDS_UP = "fast/autograder/test_missing.py::test_a_submission_that_delays_the_robot_fails"
 LATE = "fast/autograder/test_missing.py::test_a_late_command_is_the_fault_of_the_submission_that_delayed_the_robot"
@@ -23,7 +23,7 @@ NEVER_SHOWS = (
     "test_missing_evidence_that_depends_only_on_the_submission_costs_points_in_the_end"
 )
 NO_OCCASION = "fast/autograder/test_obligations.py::test_a_submission_for_which_no_obligation_applies_fails"
-# It takes what there is of memory, processors or time, or sends what nobody can read.
+# The program uses up memory, processors or time, or sends unreadable data.
 FILLS = "arena/isolation/test_student_sandbox.py::test_a_memory_bomb_ends_the_arena_and_names_the_cause"
 STARVES = "fast/arena/test_processor_time.py::test_twelve_busy_processes_that_share_a_processor_lose_nothing"
 UNREADABLE = (
@@ -82,7 +82,7 @@ PLACES = {
 
 
 def said_in(node: ast.AST, function: str = "") -> Iterator[str]:
-    """Yield the functions in which something is called that ends in "not graded"."""
+    """Yield the functions with a call that leads to "not graded"."""
     for child in ast.iter_child_nodes(node):
         if isinstance(child, ast.Call):
             called = getattr(child.func, "id", getattr(child.func, "attr", ""))

@@ -1,4 +1,4 @@
-"""Obligations hold in every scenario: what a check of them is judged on, retried for, and says."""
+"""Obligations: on which scenarios a check of them is judged and retried, and the text of its failure."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ ONE_JOB = grading.GradingOptions(jobs=1, isolation=ISOLATED)
 
 
 def run_of(scenario, *, said="", steps_done=None, missing=()):
-    """A run of a sequence, a step a second, in which the node prints `said` at the end of the last step."""
+    """A run of a sequence with one step per second; the node prints `said` at the end of the last step."""
     steps = scenario.draw(0)["steps"]
     done = len(steps) if steps_done is None else steps_done
     marks = [ev.Mark(t=float(number), name=f"step {number}") for number in range(1, done + 1)]

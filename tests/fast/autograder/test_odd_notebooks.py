@@ -1,4 +1,4 @@
-"""A notebook is what IPython makes of it, whatever else is in the file: for a self-check and for a grade alike."""
+"""Self-checks and grading read a notebook's cells as IPython does, whatever else is in the file."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def test_cells_write_the_same_files_as_in_ipython(tmp_path, monkeypatch, shell, 
 
 
 def file_of(cells, version, minor, ids, extra):
-    """Return a notebook's file: bytes as tools of many years wrote them."""
+    """Return the bytes of a notebook's file, as tools of several years have written them."""
     made = [
         {
             "cell_type": "code",

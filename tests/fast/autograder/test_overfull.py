@@ -1,4 +1,4 @@
-"""An arena that a submission fills faster than it can be ended is its failure, and not "not graded"."""
+"""A submission that exceeds the arena's memory faster than it can be ended fails; it is not "not graded"."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ EVENTS = b"".join(map(to_line, (NodeStarted(t=10.0), NodeReady(t=12.0, waited=1.
 
 
 class _EndedArenas:
-    """Arenas that end as they are told."""
+    """Arenas that end in a given way."""
 
     def __init__(self, ended: Ended) -> None:
         output = CapturedOutput(1)

@@ -1,4 +1,4 @@
-"""Each situation is marked by itself, and nothing is given for what is not answered."""
+"""Each situation is marked separately, and a missing answer gets no points."""
 
 import pytest
 

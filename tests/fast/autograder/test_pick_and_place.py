@@ -1,4 +1,4 @@
-"""What is required of a hand and a cup, and what is said of those that do something else."""
+"""The requirements on hand and cup, and the failures of servers that violate them."""
 
 from __future__ import annotations
 

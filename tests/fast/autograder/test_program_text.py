@@ -1,4 +1,4 @@
-"""A program is read as Python reads it, and what is none is named as what it is."""
+"""A program is read as Python reads it, and a file that is not a program is named by its format."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ NOTEBOOK = {"cells": [], "metadata": {}, "nbformat": 4, "nbformat_minor": 5}
 
 @pytest.fixture
 def read(tmp_path: Path):
-    """Write what is handed in as battery_service.py, and read it."""
+    """Write a submission as battery_service.py, and read it."""
 
     def write_and_read(content: bytes | str) -> Submission:
         path = tmp_path / f"{EXERCISE}.py"

@@ -1,4 +1,4 @@
-"""What a client is told about its failure: what the record knows of it, and one thing to do."""
+"""The failure of a client: the observation from the record, and one next step."""
 
 from itertools import count
 
@@ -267,7 +267,7 @@ def test_the_data_of_the_second_request():
 
 
 def late(gave_up, exited):
-    """The servers come late, and the second get_status is sent at 8 s of the program's own time."""
+    """The servers appear late, and the second get_status is sent at 8 s of the program's own time."""
     servers = [*offered(ENABLE, 2.6), *offered(STATUS, 7.2)]
     enable = [*asked(ENABLE, 2.8), *asked(ENABLE, 4.8, 6.5)]
     status = [*asked(STATUS, 7.3), *asked(STATUS, 9.3)]
@@ -293,7 +293,7 @@ def test_separate_timeouts_do_not_make_a_deadline():
 
 
 def test_the_scenario_distinguishes_programs_with_and_without_a_deadline():
-    """Without one the waits take longer than what is allowed, whether the servers are found at once or in turn."""
+    """Without a deadline the waits exceed the limit, whether the servers are searched for in parallel or in turn."""
     scenario, _refused = CHECKS["keeps_one_deadline"].on
     appears, answers = scenario.draw(0)["appears"], scenario.draw(0)["answers"]
     assert appears < 2.0 > answers

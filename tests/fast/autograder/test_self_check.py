@@ -1,4 +1,4 @@
-"""A self-check, in the notebook and on the command line, is kept for the student's page of progress."""
+"""A self-check, in the notebook and on the command line, is stored for the student's progress page."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is told to a server that stands the robot up by the clock, too soon, or under somebody's weight."""
+"""The failures of a server that stands the robot up by the clock, too soon, or against a force."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ABORTED, SUCCEEDED = GoalStatus.STATUS_ABORTED, GoalStatus.STATUS_SUCCEEDED
 
 
 def risen(at: float) -> Callable[[float], float]:
-    """The height of a pelvis that is up at a time (s) and took a second for that."""
+    """The height over time of a pelvis that has risen at a time (s), after a motion of one second."""
     return lambda t: 0.45 + 0.15 * max(0.0, min(1.0, t - at + 1.0))
 
 
@@ -54,7 +54,7 @@ def stood_up(
 
 
 def leaned_on(begin: float = LEAN, end: float = LET_GO) -> list[Any]:
-    """Somebody leans on the robot between two moments (s)."""
+    """A force acts on the robot between two times (s)."""
     command = {"do": "push", "impulse": [0.0, 70.0, 0.0], "duration": end - begin}
     loads = [(0.02 * k, UNEVEN if begin < 0.02 * k < end else EVEN) for k in range(500)]
     feet = [ev.FeetTruth(t=t, left=left, right=right) for t, (left, right) in loads]

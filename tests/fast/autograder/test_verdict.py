@@ -1,4 +1,4 @@
-"""A verdict is of readable length, whatever it quotes."""
+"""A verdict has a readable length, whatever it quotes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a client of walk_to is told about its failure: what the record knows of it, and one thing to do."""
+"""The failure of a client of walk_to: the observation from the record, and one next step."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ FOLLOWED = [goal(), answered(), *on_the_way(), *printed()]
 
 
 def run_of(*events: Any) -> Transcript:
-    """The record of a server that does what it happens to do in these events, and of a person who does."""
+    """The record of a run with these events of a server and a user."""
     start = [ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0), *OFFERED]
     replies = [event.accepted for event in events if isinstance(event, ev.GoalReplySent)]
     server = {"accepted": next(iter(replies), None), "ends_after": None}

@@ -1,4 +1,4 @@
-"""The path that a robot really walked, without the sway of its pelvis."""
+"""The path that a robot has walked, without the sway of its pelvis."""
 
 from __future__ import annotations
 

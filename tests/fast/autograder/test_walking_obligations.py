@@ -1,4 +1,4 @@
-"""What must hold of every goal that walks the robot: judged by when each was active, and by what the robot did then."""
+"""The obligations of every walking goal, judged by its active time and the robot's motion in that time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a batch shows while it runs, on a terminal and elsewhere; and how long it says the rest will take."""
+"""The progress of a batch, on a terminal and elsewhere, and its estimate of the remaining time."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ VERDICT = CheckVerdict("id", "title", "passed", 1, 1)
 
 
 class Clock:
-    """Time that passes when the test says so."""
+    """A clock that the test advances."""
 
     now = 0.0
 

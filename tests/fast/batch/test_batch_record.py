@@ -1,4 +1,4 @@
-"""batch.json says what was graded when, with what and at what cost, and can be read back."""
+"""batch.json holds what was graded when, with which checks and at what cost, and can be read back."""
 
 from __future__ import annotations
 

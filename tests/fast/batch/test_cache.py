@@ -1,4 +1,4 @@
-"""An interrupted batch goes on where it stopped, and never with a grade for something else."""
+"""A resumed batch reuses cached grades, but never for another submission or other checks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Work that a killed worker had, and what could not be graded, is done again once, and every job has one outcome."""
+"""Jobs of a killed worker and ungraded jobs are repeated once, and every job has one outcome."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def passes(job: GradingJob) -> Grade:
 
 
 def grade_or_die(folder: Path, job: GradingJob) -> Outcome:
-    """The first try of `once` and every try of `always` kill the worker's process."""
+    """Grade a job; the first try of `once` and every try of `always` kill the worker's process."""
     with (folder / job.student).open("a") as tries:
         tries.write("x")
     if job.student == "always" or (job.student == "once" and (folder / job.student).read_text() == "x"):

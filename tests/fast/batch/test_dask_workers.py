@@ -1,4 +1,4 @@
-"""Jobs on a Dask cluster of two processes, of which one is killed in the middle."""
+"""Jobs on a Dask cluster of two processes, one of which is killed during a job."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def job(student: str, trusted: bool = False) -> GradingJob:
 
 
 def grade_once_the_killed_is_gone(folder: Path, job: GradingJob) -> Outcome:
-    """Say which process works, and hold the first job of each until one of them was killed."""
+    """Report the process of a job, and block the first job of each process until one process was killed."""
     (folder / "workers" / str(os.getpid())).touch()
     while not (folder / "killed").exists():
         pass

@@ -1,4 +1,4 @@
-"""Ctrl-C in a batch on a Dask cluster: the command ends, the cluster stays, and nothing of the batch waits there."""
+"""Ctrl-C in a batch on a Dask cluster: the command ends, the cluster runs on, and no job of the batch stays queued."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 
 from distributed import Client, LocalCluster
 
-# A worker whose jobs begin, say so, and last until the test has seen what it wants.
+# A worker whose jobs report their start and run until the test lets them end.
 PRELOADED = """
 import time
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""A batch goes on, whatever happens to one submission."""
+"""A batch continues, whatever happens to one submission."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CHECKS = load_exercise("battery_service", hidden=True).checks
 
 
 def grade_by_content(submission, exercise, options, watcher, **_):
-    """Stands for the arenas: judges by a word in the source, so that the batch itself is what is tested."""
+    """Stands for the arenas: grades by a word in the source, so that the tests test only the batch."""
     (source,) = submission.sources.values()
     if "crash" in source:
         raise OSError("no space left on device")

@@ -1,4 +1,4 @@
-"""Hidden inputs are drawn anew for each batch, and stay what they were where a batch goes on."""
+"""Hidden inputs are drawn anew for each batch, but a resumed batch keeps its inputs."""
 
 from __future__ import annotations
 

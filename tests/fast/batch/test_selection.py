@@ -1,4 +1,4 @@
-"""Grading one student or one exercise leaves the grades of the others alone."""
+"""Grading one student or one exercise does not change the grades of the others."""
 
 from __future__ import annotations
 

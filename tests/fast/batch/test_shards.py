@@ -1,4 +1,4 @@
-"""Shards of a class hold each submission once, and a merge refuses what is not one batch."""
+"""Shards of a class contain each submission once, and a merge refuses shards of different batches."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The programs of a class as tools for finding copies take them: the students' own lines, and apart what was given."""
+"""The programs of a class as input for plagiarism detection: the students' lines, and separately the starter code."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A watched folder gives each submission once it is wholly there, and again when it has changed."""
+"""A watched folder yields each submission when it is complete, and again after a change."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_a_submission_replaced_while_it_is_graded_is_yielded_again(folder):
     (work,) = watched.look()
     hand_in(folder, "second")
     names(watched)
-    assert names(watched) == []  # the first is in work
+    assert names(watched) == []  # the first is being graded
     watched.is_graded(work)
     assert watched.unfinished == 1
     assert names(watched) == ["anna"]

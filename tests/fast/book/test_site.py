@@ -1,4 +1,4 @@
-"""The whole book, made without running its chapters: every page is there, and nothing comes from elsewhere."""
+"""The whole book, made without running its chapters: every page exists, and nothing is loaded from other sites."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ros_runtime.project import PROJECT
 
 
 class Page(HTMLParser):
-    """What a page names: its ids, the links to follow, and what is loaded with it."""
+    """A page's ids, its links, and the files that it loads."""
 
     def __init__(self, file: Path) -> None:
         super().__init__()

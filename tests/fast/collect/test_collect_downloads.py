@@ -1,4 +1,4 @@
-"""What `course collect` makes of each platform's download."""
+"""`course collect` converts each platform's download."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def said(done: Result) -> str:
 
 
 def programs(submitted: Path) -> dict[str, str]:
-    """What `course grade` reads in the folder: the program of each student, all for battery_service."""
+    """Return the program of each student that `course grade` reads in the folder, all for battery_service."""
     works = collect(submitted).works
     assert {work.exercise for work in works} == {"battery_service"}
     return {work.student: work.read().sources["battery_service.py"] for work in works}

@@ -1,4 +1,4 @@
-"""Downloads made to harm who collects them: what they do not reach, and what is said of them."""
+"""Malicious downloads: they reach no other files, and they are reported."""
 
 from __future__ import annotations
 

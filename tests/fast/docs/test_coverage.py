@@ -1,4 +1,4 @@
-"""docs/coverage.md tells the truth: every row names its proofs, and every cell, check, test and submission is there."""
+"""docs/coverage.md is correct: every row names its proofs, and every named cell, check, test and submission exists."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The glossary and the cheat sheet say what is there, and minutes are the same wherever they are written."""
+"""The glossary and the cheat sheet are complete and correct, and all pages state the same minutes."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ def cells(chapter: str) -> set[str]:
 
 
 def rows(page: Path) -> list[list[str]]:
-    """The cells of a page's tables, without the heads."""
+    """The cells of a page's tables, without the header rows."""
     lines = [line for line in page.read_text().splitlines() if line.startswith("| ")]
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
 
 
 def code(column: int) -> list[str]:
-    """What stands in backticks in one column of the cheat sheet."""
+    """The code in one column of the cheat sheet, without backticks."""
     return [
         snippet
         for row in rows(DOCS / "cheat_sheet.md")

@@ -1,4 +1,4 @@
-"""Every workaround says why it is there, where upstream stands, and how to remove it."""
+"""The README says of every workaround why it is needed, its state upstream, and how to remove it."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ def rows(text: str) -> list[list[str]]:
 
 
 def of_canvas(text: str) -> tuple[str, dict[str, float]]:
-    """What Canvas would import: the assignment's id, and a score for each student's ID."""
+    """The data that Canvas would import: the assignment's id, and a score for each student's id."""
     heading, points, *students = rows(text)
     assert heading[:2] == ["Student", "ID"]
     assert heading[-2] == "Section"

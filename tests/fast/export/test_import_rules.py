@@ -1,4 +1,4 @@
-"""The rooms of collect, export and on_gradescope import what docs/architecture.md says, and nothing else."""
+"""The packages collect, export and on_gradescope import only what docs/architecture.md allows."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MAY_IMPORT = {
 
 
 def imported(file: Path) -> set[str]:
-    """The rooms of the grader that a file imports from."""
+    """The packages of the grader from which a file imports."""
     nodes = list(ast.walk(ast.parse(file.read_text())))
     modules = [node.module or "" for node in nodes if isinstance(node, ast.ImportFrom)]
     modules += [alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names]

@@ -1,4 +1,4 @@
-"""The formats with a file for each submission: valid, silent about hidden checks, and never a wrong zero."""
+"""The formats with a file for each submission: valid, without hidden checks, and without a wrong zero."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def read(name: str, one: Grade, options: Any = OPTIONS) -> Any:
 
 
 def said_to_students(name: str, one: Grade) -> str:
-    """All that a student can read of a file: of Gradescope's without the tests that it keeps from them."""
+    """The text of a file that a student can read; for Gradescope without the tests that it hides."""
     if name != "gradescope":
         return file_of(name, one)
     results = read(name, one)

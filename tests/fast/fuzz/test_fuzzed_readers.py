@@ -1,4 +1,4 @@
-"""Readers return a value or say why not, whatever a student sends; and what fuzzers found stays mended."""
+"""Readers return a value or a reason, whatever a student sends; errors that fuzzers found have tests here."""
 
 from __future__ import annotations
 

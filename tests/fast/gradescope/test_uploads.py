@@ -1,4 +1,4 @@
-"""What results.json says of uploads that never reach an arena, and of a container that cannot grade."""
+"""results.json for uploads that never reach an arena, and for a container that cannot grade."""
 
 from __future__ import annotations
 

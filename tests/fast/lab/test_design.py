@@ -1,4 +1,4 @@
-"""A notebook draws a design, and asks for what is missing, without judging it."""
+"""A notebook draws a design and lists its missing facts, without grading it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ WHOLE = HALF + "    failure: after 0.5 s it says so\n    safety: it moves nothin
 
 @pytest.fixture
 def kept(monkeypatch: pytest.MonkeyPatch) -> list[tuple]:
-    """What is kept for the page of progress."""
+    """The entry that is stored for the progress page."""
     made: list[tuple] = []
     monkeypatch.setattr(module, "keep_check", lambda *check: made.append(check))
     return made

@@ -1,4 +1,4 @@
-"""Films of the way to a goal show its status, its phases and where the robot was, and say so in words."""
+"""Films of a goal show its status, its phases and the robot's position, and have a text alternative."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def words(html: HTML) -> str:
 
 
 def near(picture: np.ndarray, colour: str, tolerance: int = 45) -> int:
-    """How many pixels are about of this colour."""
+    """The number of pixels of about this colour."""
     wanted = np.array([*bytes.fromhex(colour.removeprefix("#"))])
     return int((abs(picture - wanted).max(axis=2) < tolerance).sum())
 

@@ -1,4 +1,4 @@
-"""The two gates at a moment of a run: which group is taken, and how many threads are free."""
+"""The two conditions for a callback at a moment of a run: a free callback group and a free thread."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The picture of a goal's states shows those that the last goal had, when, and in what order."""
+"""The picture of a goal's states shows the states of the last goal, with their times and order."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def end(after: float, status: GoalStatus, goal: str = "go 1") -> None:
 
 
 def lit(svg: str) -> list[str]:
-    """The states that light up, in the order of their times."""
+    """The highlighted states, in the order of their times."""
     return [state for state, _ in sorted(_lit_after(svg).items(), key=lambda lights: lights[1])]
 
 

@@ -1,4 +1,4 @@
-"""What is drawn of the events of a notebook, and what is dropped."""
+"""Which events of a notebook are drawn, and which are dropped."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Topic, service or action, by the first question that is answered with yes."""
+"""The choice of topic, service or action by the first question that is answered with yes."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ def in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def panel(prediction: Prediction) -> tuple[ipywidgets.ToggleButtons, ipywidgets.Button, ipywidgets.HTML]:
-    """What a student sees below the question: the answers, the button "Clear", and a note."""
+    """The widgets below the question: the answers, the button "Clear", and a note."""
     answers, row = prediction._panel().children
     note, clear = row.children
     return answers, clear, note

@@ -1,4 +1,4 @@
-"""What a student has done: counted, and shown with a next step."""
+"""A student's progress is counted and shown with a next step."""
 
 from __future__ import annotations
 

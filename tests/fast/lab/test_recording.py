@@ -1,4 +1,4 @@
-"""What a recording holds, and what its plots show."""
+"""The content of a recording, and its plots."""
 
 from __future__ import annotations
 

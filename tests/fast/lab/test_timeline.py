@@ -15,7 +15,7 @@ from lab.running.processes import Life, Process
 
 @dataclass(frozen=True)
 class Lived:
-    """Stands in for a node or program."""
+    """Stands for a node or program."""
 
     of: Life
 

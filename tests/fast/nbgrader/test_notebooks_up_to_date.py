@@ -1,4 +1,4 @@
-"""solutions/, exercises/ and the checks say the same."""
+"""solutions/, exercises/ and the checks are consistent."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Recordings travel with the outcome of a job, whoever carries it out, and lie where the batch keeps them."""
+"""Recordings are returned with the outcome of a job, from any worker, and stored in the folder of the batch."""
 
 from __future__ import annotations
 

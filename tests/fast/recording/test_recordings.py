@@ -1,4 +1,4 @@
-"""What a recording holds, as an independent reader finds it."""
+"""The content of a recording, read by an independent reader."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A recording shown again: the robot where it was, and what happened beside it."""
+"""The replay of a recording: the robot's motion, with captions of the events."""
 
 from __future__ import annotations
 
@@ -162,7 +162,7 @@ def test_output_of_a_program_cannot_control_the_terminal(tmp_path: Path) -> None
 
 
 class Seen:
-    """Stands for the web view, of which a process can open one: notes what it is shown."""
+    """Stands for the web view, which a process can open only once; records what it shows."""
 
     url = "http://here/"
 

@@ -1,4 +1,4 @@
-"""What an instructor and a student read after a batch, from made-up grades."""
+"""The pages for instructors and students after a batch, made from invented grades."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def words(tag: Tag | BeautifulSoup) -> str:
 
 
 def section(page: BeautifulSoup, heading: str) -> str:
-    """What stands below a heading, up to the next."""
+    """The text below a heading, up to the next heading."""
     start = page.find("h2", string=re.compile(heading))
     assert isinstance(start, Tag)
     text = []

@@ -1,4 +1,4 @@
-"""What is drawn of a failed check, from recorded events, and which submission it is shown for."""
+"""The drawings of a failed check, from recorded events, and the submission for which they are shown."""
 
 from __future__ import annotations
 

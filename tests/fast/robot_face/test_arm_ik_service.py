@@ -1,4 +1,4 @@
-"""The service compute_arm_ik sees a pose in odom from where the robot stands, whichever way it looks."""
+"""The service compute_arm_ik converts a pose in odom correctly, wherever the robot stands and whatever its heading."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SUCCESS = ComputeArmIK.Response.SUCCESS
 
 
 class StandInNode:
-    """What the service needs of a node."""
+    """Stands for the node, with only the methods that the service uses."""
 
     def create_service(self, service_type, name, answer):
         self.answer = answer
@@ -37,7 +37,7 @@ class StandInNode:
 
 @pytest.fixture
 def held() -> Humanoid:
-    """Held by a stand, so that its body does not give way and odom and base_link have the same answer."""
+    """A robot on the stand: its body does not move, so the same pose in odom and base_link has the same solution."""
     robot = Humanoid("stand")
     robot.reset(X, Y, YAW)
     return robot

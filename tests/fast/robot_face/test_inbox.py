@@ -1,4 +1,4 @@
-"""What the robot hears of what anybody may send it, tried with bytes and without another node."""
+"""Which messages the robot accepts, tested with bytes and without another node."""
 
 import struct
 from types import SimpleNamespace
@@ -16,7 +16,7 @@ from robot_sim.ros.trajectory_size import MOST_BYTES, MOST_POINTS, count_joints_
 
 
 class Topic:
-    """A subscription whose messages are put here, and what becomes of them."""
+    """A subscription whose messages a test sets, and the messages and reports that result."""
 
     def __init__(self, kind, **limits):
         self.waiting, self.heard, self.reports = [], [], []
@@ -111,7 +111,7 @@ def test_a_flood_is_limited_to_a_rate_and_the_newest_messages_wait():
     topic = Topic(Twist)
     for tick in range(100):  # 2 s in looks of 20 ms
         topic.waiting += [serialize_message(Twist())] * 30
-        topic.waiting = topic.waiting[-10:]  # as a history of depth 10 does
+        topic.waiting = topic.waiting[-10:]  # as a history of depth 10 keeps them
         topic.inbox.process_arrived(0.02 * tick)
     assert len(topic.heard) == pytest.approx(3 * MESSAGES_A_SECOND, abs=5)  # 1 s worth at first, then 2 s
     topic.inbox.report()

@@ -1,4 +1,4 @@
-"""Crouching, rising, and how stiffly the body is held."""
+"""Crouching, rising, and the gains of the balance controller."""
 
 from __future__ import annotations
 

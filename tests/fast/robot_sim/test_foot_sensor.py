@@ -1,4 +1,4 @@
-"""What the feet feel: together they carry the robot, and the one that stands carries most."""
+"""The forces on the feet: together they are the robot's weight, and the stance foot has most of it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from robot_sim.state import Mode
 
 
 def loads(humanoid: Humanoid) -> list[float]:
-    """What left and right foot carry, N."""
+    """The loads on the left and the right foot, N."""
     return [humanoid.feet[side].read().force[2] for side in SIDES]
 
 

@@ -41,7 +41,7 @@ def test_a_sole_that_keeps_tipping_gets_a_larger_shift():
 
 
 def test_a_sole_on_a_slope_does_not_tip():
-    """A floor that rises ahead lets the normal lean back."""
+    """On a floor that rises ahead, the normal leans back."""
     assert shift((-0.08, 0.0), slope=(0.08, 0.0)) == (0.0, 0.0)
 
 

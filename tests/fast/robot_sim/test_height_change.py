@@ -1,4 +1,4 @@
-"""Crouching and standing up in phases, each of which ends on what is measured."""
+"""Crouching and standing up in phases, each of which ends by a measurement."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def test_a_phase_that_cannot_end_is_reported(humanoid):
     change = humanoid.stand_up()
     until_phase(humanoid, change, "rising")
     for _ in range(150):
-        humanoid.push((4.0, 0.0, 0.0))  # leaned on: 40 N without end
+        humanoid.push((4.0, 0.0, 0.0))  # a lateral force of 40 N that does not end
         simulate(humanoid, 0.1)
     assert change.phase.value == "failed"
     assert "not done within 12 s (" in change.problem

@@ -1,4 +1,4 @@
-"""Joint angles for poses of the hands: what is found is right, and what is out of reach is refused."""
+"""Joint angles for poses of the hands: solutions are correct, and unreachable poses are refused."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ BACKWARDS = np.diag([-1.0, -1.0, 1.0])  # fingers towards the robot
 
 @pytest.fixture(scope="module")
 def humanoid() -> Humanoid:
-    """A robot that stands anywhere, and looks anywhere."""
+    """A robot away from the origin, with a heading other than 0."""
     robot = Humanoid()
     robot.reset(1.3, -0.4, 2.0)
     simulate(robot, 0.5)
@@ -47,7 +47,7 @@ def posed(posture: ArmPosture, side: Side) -> tuple[np.ndarray, np.ndarray]:
 
 
 def misses(known: KnownGoal, kinematics: ArmInverseKinematics, humanoid: Humanoid) -> str:
-    """What is wrong with the answer for a goal, or ""."""
+    """The fault of the solution for a goal, or ""."""
     try:
         posture = kinematics.solve(humanoid.data, known.side, known.goal)
     except Unreachable as error:

@@ -1,4 +1,4 @@
-"""A scenario holds a joint against its motor, and asks where joints are."""
+"""A scenario holds a joint against its motor, and requests joint positions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A scenario leans on the robot, lowers it, and asks what its feet carry."""
+"""A scenario applies a lateral force to the robot, lowers it, and requests the loads on its feet."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ FORCE = 20.0  # N
 
 
 def loads(humanoid: Humanoid) -> list[dict]:
-    """What the ground truth tells of the feet, once asked and then with the robot's state."""
+    """The loads in the ground truth: one at the request, and one with the robot's next state."""
     read_end, write_end = os.pipe()
     truth = GroundTruthWriter(write_end)
     truth.robot(humanoid, 0.0)

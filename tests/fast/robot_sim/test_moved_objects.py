@@ -1,4 +1,4 @@
-"""A scenario takes the cup away, and asks where hand and cup are."""
+"""A scenario removes the cup, and requests the positions of hand and cup."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A simulation that was held up says for how long."""
+"""A delayed simulation reports its lag."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""A robot that rests is not integrated, and nothing that it tells shows that."""
+"""The physics of a resting robot is not integrated, and its published state does not show that."""
 
 import math
 
@@ -21,7 +21,7 @@ def standing(scene="flat", may_rest=True, seed=3):
 
 
 def rests(humanoid):
-    """Whether a step leaves everything but the time as it was, to the last bit."""
+    """Whether a step changes nothing but the time, to the last bit."""
 
     def state():
         data = humanoid.data
@@ -34,7 +34,7 @@ def rests(humanoid):
 
 
 def told(humanoid):
-    """Everything that messages are made of, battery and time excepted."""
+    """The state from which messages are made, without battery and time."""
     pose, velocity, joints = humanoid.base_pose(), humanoid.base_velocity(), humanoid.joint_state()
     return np.concatenate(
         [

@@ -37,12 +37,12 @@ def test_the_estimate_follows_the_robot_through_a_walk():
     for _ in range(1200):
         step()
     assert np.abs(position).max() < 0.08
-    assert np.abs(np.array(position)[:, 2]).max() < 0.01  # the feet tell the height
+    assert np.abs(np.array(position)[:, 2]).max() < 0.01  # the feet determine the height
     assert np.sqrt(np.mean(np.square(velocity))) < 0.03
 
 
 def test_the_estimate_does_not_use_the_true_state():
-    """Carried away on a moving floor, as it were, it stands as before and believes to be where it was."""
+    """If the true robot is moved, the estimate does not change."""
     humanoid = Humanoid(estimates_state=True)
     simulate(humanoid, 1.0)
     humanoid.data.qpos[:2] += 0.7, -0.4

@@ -1,4 +1,4 @@
-"""What can be typed, and which `ros2` it reaches."""
+"""The command line, and which `ros2` it executes."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_the_verbs_and_flags_of_ros2cli_are_parsed(words: str) -> None:
     assert options.run.__module__.startswith("ros_cli.verb")
 
 
-# Of ros2cli 0.32.2 (Jazzy) and of what later releases for Jazzy added; `-h` and what stands for a word apart.
+# The flags of ros2cli 0.32.2 (Jazzy) and of later releases for Jazzy, without `-h` and positional arguments.
 ALL = "--spin-time -s --use-sim-time --no-daemon"
 QOS = (
     "--qos-profile --qos-depth --qos-history --qos-reliability --qos-durability --qos-liveliness "

@@ -1,4 +1,4 @@
-"""What the verbs print, without a graph."""
+"""The output of the verbs, without a graph."""
 
 from __future__ import annotations
 

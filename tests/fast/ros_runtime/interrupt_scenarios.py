@@ -1,6 +1,6 @@
 """Ctrl-C between two steps of rclpy, to be run in a process of their own: `python interrupt_scenarios.py NAME`.
 
-Each scenario puts the interrupt where chance would put it rarely; the status and stderr tell how the program ends.
+Each scenario sends the interrupt at a moment at which it rarely comes; status and stderr show how the program ends.
 """
 
 import signal
@@ -57,7 +57,7 @@ def while_a_daemon_thread_spins():
 
 
 class ContextThatGoesDownWhenAsked:
-    """It is still up when asked for the first time, and down right after."""
+    """A context that is ok at the first check and shut down right after it."""
 
     def __init__(self, handle):
         self._handle = handle

@@ -1,4 +1,4 @@
-"""The repair of the MultiThreadedExecutor: where it is applied, that it cures, and that it changes nothing else."""
+"""The repair of the MultiThreadedExecutor: it is applied where needed, it works, and it changes nothing else."""
 
 import json
 import shutil

@@ -1,4 +1,4 @@
-"""A design is read as it is written, and what is not there is named."""
+"""A design is read as written, and missing facts are named."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ BOX = "{http://www.w3.org/2000/svg}rect"
 
 
 def missing(text: str) -> list[str]:
-    """What is missing in the only link of a design that can be read."""
+    """The missing facts of the only link of a readable design."""
     design = read_design(text)
     assert design.problems == ()
     (link,) = design.links

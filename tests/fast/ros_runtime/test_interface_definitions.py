@@ -1,4 +1,4 @@
-"""What is said about definitions that cannot be built, and what is read from those that can."""
+"""The problems reported for definitions that cannot be built, and the content read from valid ones."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ KNOWN = KnownTypes.installed([Path(prefix) for prefix in PREFIXES])
 
 
 def problems_of(folder: Path, **files: str) -> list[Problem]:
-    """What is wrong with files given as Name_srv="…"."""
+    """The problems of files given as Name__srv="…"."""
     for name, text in files.items():
         (folder / name.replace("__", ".")).write_text(text)
     with pytest.raises(InvalidDefinitions) as caught:

@@ -1,4 +1,4 @@
-"""The repair of Ctrl-C: a sound node ends with status 0 wherever the interrupt falls."""
+"""The repair of Ctrl-C: a correct node ends with status 0 at whatever moment the interrupt comes."""
 
 import pytest
 from rclpy_process import run_scenario
@@ -7,7 +7,7 @@ from ros_runtime.workarounds.rclpy_repairs.interrupt import needs_repair
 from ros_runtime.workarounds.rclpy_repairs.version import installed_version
 
 SCENARIOS = "interrupt_scenarios.py"
-# What rclpy makes of it without the repair. A daemon thread crashes only about every second time.
+# The errors without the repair. A daemon thread crashes only in about half of the runs.
 FAULTS = {
     "between_the_look_at_the_context_and_the_wait_set": "failed to initialize wait set",
     "while_a_message_is_made": "Unable to convert call argument",

@@ -1,4 +1,4 @@
-"""The repair of the ActionClient: a quick answer is not lost where one thread sends and another one spins."""
+"""The repair of the ActionClient: a quick response is not lost if one thread sends and another one spins."""
 
 import json
 from types import SimpleNamespace

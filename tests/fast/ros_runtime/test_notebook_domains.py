@@ -31,7 +31,7 @@ def lab(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def notebooks(lab: None) -> Iterator[list[ReservedDomain]]:
-    """Two that have joined, one after the other."""
+    """Two notebooks that have joined their domains, one after the other."""
     domains = [ReservedDomain(), ReservedDomain()]
     for domain in domains:
         notebook_domains.announce(domain.domain_id)

@@ -1,4 +1,4 @@
-"""Several nodes are waited for at once: one that never answers costs the others nothing."""
+"""Waiting for several nodes at once: a node that never answers does not delay the others."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ros_runtime.reachability import wait_until_all_reachable, wait_until_reacha
 
 
 class FakeClient:
-    """Of a node that answers from its `patience`-th question on; None: never."""
+    """A client of a node that answers from the `patience`-th request on; None: never."""
 
     def __init__(self, patience: int | None) -> None:
         self._patience = patience

@@ -1,4 +1,4 @@
-"""Systems that share a machine stay out of each other's way."""
+"""ROS systems on one machine use different domains."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Building a student's package beside those that are built already."""
+"""Building a student's package while others are already built."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The build hook: which ROS 2 it builds with, and when a finished build is used again."""
+"""The build hook: the ROS 2 that it builds with, and the reuse of a finished build."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[3]
 
 @pytest.fixture
 def jazzy(tmp_path: Path) -> Path:
-    """A prefix as /opt/ros/jazzy has it, for the Python that runs the tests."""
+    """A prefix with the layout of /opt/ros/jazzy, for the Python that runs the tests."""
     prefix = tmp_path / "opt/ros/jazzy"
     version = f"{sys.version_info.major}.{sys.version_info.minor}"
     (prefix / f"lib/python{version}/site-packages/rclpy").mkdir(parents=True)

@@ -1,4 +1,4 @@
-"""The launcher notices when its environment no longer fits the clone."""
+"""The launcher detects when its environment no longer fits the clone."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ WHAT_DECIDES = (
 
 @pytest.fixture
 def clone(tmp_path: Path) -> Path:
-    """A copy of what the environment is made from, with a stand-in environment that is up to date."""
+    """A copy of the files from which the environment is made, with a fake environment that is up to date."""
     clone = tmp_path / "clone"
     clone.mkdir()
     for name in WHAT_DECIDES:
@@ -48,7 +48,7 @@ def clone(tmp_path: Path) -> Path:
 
 
 def dry_run(clone: Path, **environment: str) -> list[str]:
-    """The launcher's verdict on the environment, and the fingerprint of what it would be made from."""
+    """The state of the environment as the launcher reports it, and the fingerprint of the files for it."""
     inherited = {name: value for name, value in os.environ.items() if not name.startswith(("ROS_", "AMENT_"))}
     finished = subprocess.run(
         [clone / "course"],
@@ -142,7 +142,7 @@ def test_a_clone_in_a_path_that_some_tools_cannot_take_is_used_through_a_link(cl
         assert state(odd) == "ready"
         assert subprocess.check_output([odd / "course"], text=True) == f"{link}/.venv/bin/course\n"
 
-        link.parent.chmod(0o777)  # anybody could lead it elsewhere
+        link.parent.chmod(0o777)  # any user could replace the link
         assert plain_path(odd).parent != link.parent
     finally:
         for parent in ("/var/tmp", "/tmp"):

@@ -1,4 +1,4 @@
-"""Containers, Binder, CI and unusual machines: everything calls the launcher, with arguments that it takes."""
+"""Containers, Binder, CI and unusual machines: all call the launcher with valid arguments."""
 
 from __future__ import annotations
 

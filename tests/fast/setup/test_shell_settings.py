@@ -1,4 +1,4 @@
-"""What a shell has set for other ROS work does not keep the course's commands from their work."""
+"""The course's commands work in shells with variables for other ROS work."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""System packages: root gets them installed, everyone else is told the line to type."""
+"""System packages: for root they are installed, for other users the command is printed."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Machine:
         path.chmod(0o755)
 
     def ensure(self, *packages: str) -> str:
-        """What the launcher says when it needs `packages`."""
+        """The output of the launcher when it needs `packages`."""
         script = '. "$SETUP/system_packages.sh"; ensure_system_packages "$@"'
         environment = {"PATH": str(self.bin), "SETUP": str(ROOT / "setup"), "root": str(self.bin.parent)}
         command = ["/bin/bash", "-u", "-c", script, "ensure", *packages]

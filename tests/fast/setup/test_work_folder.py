@@ -1,4 +1,4 @@
-"""Notebooks of a shared installation: each student's own copies, which stay as the student left them."""
+"""Notebooks of a shared installation: each student has own copies, which updates do not change."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ros_runtime.project import PROJECT, WORK_VARIABLE
 
 @pytest.fixture
 def shared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An installation that this user may not write, and a home."""
+    """A read-only installation, and a home folder."""
     root = tmp_path / "shared"
     for name in ("start_here.ipynb", "chapters/01.ipynb", "exercises/patterns/patterns.ipynb", "docs/a.md"):
         (root / name).parent.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""What failed beside other tests runs once more, alone; a correct submission that lost a point is no such test."""
+"""Failed tests run once more, alone, except a correct submission that lost a point."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A small chapter, run and put on paper."""
+"""A small chapter, executed and converted to a page of the book."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Chapter 1 shows what it says."""
+"""The cells of chapter 1 show what its text says."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def chapter(executed: Callable[[str], Executed]) -> Executed:
 
 
 def number(text: str, pattern: str) -> float:
-    """The number in a text where the pattern has its group."""
+    """The number that the pattern's group matches in a text."""
     found = re.search(pattern, text)
     assert found, f"{pattern!r} is not in {text!r}"
     return float(found[1])

@@ -1,4 +1,4 @@
-"""Chapter 4 shows what it says."""
+"""The cells of chapter 4 show what its text says."""
 
 from __future__ import annotations
 

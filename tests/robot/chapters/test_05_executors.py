@@ -1,4 +1,4 @@
-"""Chapter 5 shows what it says."""
+"""The cells of chapter 5 show what its text says."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Chapter 6 shows what it says."""
+"""The cells of chapter 6 show what its text says."""
 
 from __future__ import annotations
 

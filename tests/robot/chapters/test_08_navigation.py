@@ -1,4 +1,4 @@
-"""Chapter 8 shows what it says."""
+"""The cells of chapter 8 show what its text says."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Chapter 9 shows what it says."""
+"""The cells of chapter 9 show what its text says."""
 
 from __future__ import annotations
 

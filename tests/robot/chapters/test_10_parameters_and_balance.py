@@ -1,4 +1,4 @@
-"""Chapter 10 shows what it says."""
+"""The cells of chapter 10 show what its text says."""
 
 from __future__ import annotations
 
@@ -145,7 +145,7 @@ def test_phases_end_by_measurement(chapter: Executed) -> None:
     assert in_order(chapter.html("phases-run"), "rising", "settling", "result: SUCCEEDED")
 
 
-# A trial leaves its lines behind, so the file that needs the others is tried first.
+# A trial changes the file, so the gap that needs the other solutions is tried first.
 @pytest.mark.parametrize(
     ("lines", "said"),
     [

@@ -1,4 +1,4 @@
-"""Chapter 11 shows what it says."""
+"""The cells of chapter 11 show what its text says."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def chapter(executed: Callable[[str], Executed]) -> Executed:
 
 
 def moments(html: str, node: str) -> dict[str, float]:
-    """When a node printed what, in s, by the words of a time line."""
+    """The times (s) at which a node printed its lines, by line, from the text of a timeline."""
     (words,) = re.findall(
         rf"{re.escape(node)} began at [\d.]+ s; (.*?)\.(?: |</desc>)(?=\w+\.py|It still|<|$)", html
     )

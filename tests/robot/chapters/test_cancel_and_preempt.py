@@ -1,4 +1,4 @@
-"""Chapter 7 shows what it says."""
+"""The cells of chapter 7 show what its text says."""
 
 from __future__ import annotations
 

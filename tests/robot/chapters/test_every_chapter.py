@@ -1,4 +1,4 @@
-"""What holds for every chapter when it runs: pictures, predictions, quiz, and that it leaves nothing running."""
+"""Requirements on the run of every chapter: pictures, predictions, quiz, and no process left running."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def test_its_quiz_marks_every_answer_with_a_reason(name: str, executed: Callable
 
 
 def test_a_running_chapter_is_detected_as_a_process(tmp_path: Path) -> None:
-    """The check for processes left behind does see processes."""
+    """Test the helper that finds leftover processes."""
     folder = tmp_path / "programs"
     folder.mkdir()
     with subprocess.Popen([sys.executable, "-c", "input()"], cwd=folder, stdin=subprocess.PIPE) as process:

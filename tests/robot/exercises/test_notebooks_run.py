@@ -1,4 +1,4 @@
-"""The source notebooks do what they say: on a live robot, with the reference solution in them."""
+"""The source notebooks run on a live robot, with the reference solution in them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CELL_TIMEOUT = 300  # s, for a self-check on a busy machine
 
 
 def run(exercise, folder, until=None):
-    """Execute a source notebook up to the cell of that id; return what each cell printed and gave, by its id."""
+    """Execute a source notebook up to the cell with that id; return the output and result of each cell by its id."""
     notebook = nbformat.read(SOLUTIONS / exercise / f"{exercise}.ipynb", as_version=4)
     ids = [cell.id for cell in notebook.cells]
     notebook.cells = notebook.cells[: ids.index(until) if until else None]

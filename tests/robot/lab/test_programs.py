@@ -1,4 +1,4 @@
-"""Programs that end by themselves, and those that should have."""
+"""Programs that end by themselves, and programs that do not."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A recording of the robot that runs: a walk, a goal that is cancelled meanwhile, and a fall."""
+"""A recording of the running robot: a walk, a goal that is cancelled during the walk, and a fall."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from kernels import Kernel
 
 @pytest.fixture(scope="module")
 def recorded(kernel: Kernel) -> Kernel:
-    """A kernel whose `recording` has a walk, in which a goal was cancelled, and after which the torque went."""
+    """A kernel whose `recording` has a walk with a cancelled goal, and after it a fall without torque."""
     kernel.run("""
         import time
         from humanoid_interfaces.action import StandUp

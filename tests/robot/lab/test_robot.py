@@ -1,4 +1,4 @@
-"""The robot of a notebook: starting it, looking at it, and its end with the kernel."""
+"""The robot of a notebook: its start, its pictures, and its end with the kernel."""
 
 from __future__ import annotations
 

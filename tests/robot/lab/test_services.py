@@ -1,4 +1,4 @@
-"""Calling services of students' nodes, and what is said when that fails."""
+"""Calling services of students' nodes, and the errors if a call fails."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The service compute_arm_ik as another node meets it, and the action in docs/robot.md that asks it."""
+"""The service compute_arm_ik, called by another node, and the action server in docs/robot.md that calls it."""
 
 from __future__ import annotations
 
@@ -135,7 +135,7 @@ def place_checker(robot, tmp_path, request):
 
 @pytest.fixture
 def client_of_check_place(robot):
-    """A client, and what waits for its futures in the test's own thread.
+    """A client, and a function that waits for its futures in the test's own thread.
 
     A goal that is sent from one thread while another receives may lose its response in rclpy.
     """

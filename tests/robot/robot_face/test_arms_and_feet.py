@@ -1,4 +1,4 @@
-"""Hands, feet and joint limits as another node meets them, wherever the robot stands."""
+"""The topics of hands, feet and joint limits, received by another node, in each scene."""
 
 from __future__ import annotations
 

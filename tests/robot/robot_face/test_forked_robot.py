@@ -1,4 +1,4 @@
-"""A robot that is served by a fork of a process in which it was built, as the arena starts many."""
+"""A robot that runs in a fork of the process in which it was built, as arenas start it."""
 
 import json
 import os

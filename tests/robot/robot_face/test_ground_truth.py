@@ -1,4 +1,4 @@
-"""What the simulator tells the arena through its own pipe, and what a scenario tells it."""
+"""The ground truth that the simulator writes to its pipe, and the commands that a scenario sends."""
 
 import json
 import os
@@ -11,7 +11,7 @@ from sensor_msgs.msg import Imu, JointState
 
 
 class Pipes:
-    """A robot's truth, collected by kind, and its commands."""
+    """The pipes of a robot: its ground truth, collected by kind, and its commands."""
 
     def __init__(self, listener, truth_fd, control_fd):
         self.listener = listener

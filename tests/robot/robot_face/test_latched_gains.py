@@ -1,4 +1,4 @@
-"""The robot takes balance gains from any publisher, and those that were published before it was there."""
+"""The robot uses balance gains of any publisher, also those that were published before it started."""
 
 import time
 

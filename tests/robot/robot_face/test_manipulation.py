@@ -1,4 +1,4 @@
-"""Arms, hands and objects as another node meets them."""
+"""The topics of arms, hands and objects, used by another node."""
 
 import math
 
@@ -19,7 +19,7 @@ def robot():
 
 
 def joint_reaches(robot, name, position):
-    """The joint states' first message in which a joint is at a position and at rest."""
+    """The first JointState message in which a joint is at a position and at rest."""
 
     def is_there(message):
         index = message.name.index(name)

@@ -1,4 +1,4 @@
-"""What /sim offers: pause, step, reset, push, hold, charge, pace."""
+"""The services and topics under /sim: pause, step, reset, push, hold, charge, real-time factor."""
 
 import time
 

@@ -1,4 +1,4 @@
-"""A scenario takes the robot over, as an operator's remote control does: cmd_vel is not heeded meanwhile."""
+"""A scenario takes over the robot, like an operator's remote control: meanwhile cmd_vel is ignored."""
 
 import pytest
 import rclpy
@@ -14,7 +14,7 @@ AHEAD.linear.x = 0.3
 
 @pytest.fixture
 def node():
-    """A robot's node that nobody spins; its messages are handed to it by the test."""
+    """A robot's node that is not spun; the test calls its callbacks with messages."""
     rclpy.init()
     node = HumanoidNode(Humanoid())
     yield node
@@ -23,7 +23,7 @@ def node():
 
 
 def walk_on(node, duration):
-    """Let the robot walk while a program publishes a velocity straight ahead at 20 Hz; return how far it got."""
+    """Let the robot walk while a program publishes a forward velocity at 20 Hz; return the distance."""
     humanoid = node.humanoid
     start, end, due = humanoid.base_pose(), humanoid.time + duration, humanoid.time
     while humanoid.time < end:

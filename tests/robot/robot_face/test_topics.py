@@ -1,4 +1,4 @@
-"""The robot as another node meets it: topics, rates, frames, commands.
+"""The robot's topics, rates, frames and commands, used by another node.
 
 One robot serves the tests that leave it standing.
 """

@@ -1,4 +1,4 @@
-"""The trials, a few runs of each: the long ones are for `./course bench --trial all`."""
+"""A few runs of each trial; `./course bench --trial all` makes the long ones."""
 
 import pytest
 from rich.console import Console

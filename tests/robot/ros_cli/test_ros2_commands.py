@@ -24,7 +24,7 @@ ADD = "humanoid_interfaces/srv/AddTwoInts"
 TWIST = "geometry_msgs/msg/Twist"
 POSE = "geometry_msgs/msg/PoseStamped"
 
-Ros2 = Any  # a function: the words of a command → what came of it
+Ros2 = Any  # a function: the words of a command → its outcome
 
 
 @pytest.fixture(scope="module")
@@ -63,7 +63,7 @@ def ros2(environment: dict[str, str], playground: subprocess.Popen[str]) -> Ros2
 
 @pytest.fixture
 def started(environment: dict[str, str], playground: subprocess.Popen[str]) -> Iterator[Any]:
-    """A function that starts a command which goes on until Ctrl-C."""
+    """A function that starts a command that runs until Ctrl-C."""
     running: list[subprocess.Popen[str]] = []
 
     def start(*words: str) -> subprocess.Popen[str]:
