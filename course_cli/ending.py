@@ -7,9 +7,9 @@ import errno
 import typer
 from rich.console import Console
 
-from ros_runtime.course_error import COULD_NOT, UNUSABLE
+from ros_runtime.course_error import COMMAND_FAILED, UNUSABLE
 
-__all__ = ["COULD_NOT", "NOT_GRADED", "UNUSABLE", "batch_status", "ended", "in_a_sentence"]
+__all__ = ["COMMAND_FAILED", "NOT_GRADED", "UNUSABLE", "batch_status", "ended", "in_a_sentence"]
 
 NOT_GRADED = 3  # the grader could not judge a submission
 FULL_DISK = (
@@ -32,7 +32,7 @@ def batch_status(*, not_graded: int, complete: bool) -> int:
     """Return the exit status of a batch: 3 if a submission is not graded, else 1 if it is incomplete, else 0."""
     if not_graded:
         return NOT_GRADED
-    return 0 if complete else COULD_NOT
+    return 0 if complete else COMMAND_FAILED
 
 
 def in_a_sentence(error: BaseException) -> str:

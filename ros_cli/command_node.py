@@ -26,9 +26,7 @@ from ros_runtime.reachability import wait_until_reachable
 SPIN_TIME = 0.5  # s, as in ros2cli
 # Multiple of the spin time to wait while the wanted entity is missing: Fast DDS repeats a lost announcement after 3 s.
 MISSING_FACTOR = 10
-DISCOVERY_LIMIT_FACTOR = (
-    16  # multiple of the spin time after which discovery ends, even if the graph still changes
-)
+DISCOVERY_LIMIT_FACTOR = 16  # multiple of the spin time; then discovery ends although the graph changes
 QUERY_PERIOD = 0.02  # s between two queries of the graph, because rclpy does not report its changes
 ROSOUT = "/rosout"  # a topic that every node publishes
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet

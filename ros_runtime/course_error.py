@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-COULD_NOT = 1  # exit status: the command failed
+COMMAND_FAILED = 1  # exit status: the command failed
 UNUSABLE = 2  # exit status: the command's arguments or files are unusable
 
 

@@ -33,7 +33,7 @@ def last_checks(file: Path = FILE) -> dict[str, LastCheck]:
     return checks
 
 
-def keep_check(exercise: str, passed: int, total: int, file: Path = FILE) -> None:
+def store_check(exercise: str, passed: int, total: int, file: Path = FILE) -> None:
     """Store a self-check of one of the course's exercises; does nothing if the file cannot be written."""
     if not (file.parent / exercise).is_dir():  # an exercise of another course
         return

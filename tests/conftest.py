@@ -10,7 +10,7 @@ import pytest
 
 TESTS = Path(__file__).parent
 # The longest files start first. Then come robots and chapters, which mostly wait for their clocks while the submissions
-# of test_audit.py use the processor. Files that use the processor themselves follow; the fast tier's short ones are last.
+# of test_audit.py use the processor. Files that use the processor themselves follow, and the fast tier's short ones.
 FIRST = ("test_bare_debian.py", "test_audit.py", "test_notebooks_run.py")
 TIERS = ("robot", "arena", "browser", "fast")
 

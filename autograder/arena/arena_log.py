@@ -30,7 +30,7 @@ MOST_OF: Mapping[str, int] = {
 MAX_LENGTH = 10_000  # characters of a text, elements of a list
 LARGEST_EVENT = 2**20  # bytes of JSON
 LARGEST_RECORD = 32 * 2**20  # bytes of events that students cause; the controller reads up to twice as many
-MOST_OF_NOBODYS = 500  # events of one kind that match no goal, call or service of the scenario
+MOST_OF_UNKNOWN_GOALS = 500  # events of one kind that match no goal, call or service of the scenario
 
 
 @dataclass
@@ -89,7 +89,7 @@ class ArenaLog(EventLog):
         with self._counting:
             self._first.setdefault(what, now)
             self._counts[what, of] += 1
-            most = MOST_OF_NOBODYS if of == UNKNOWN_GOAL else MOST_OF.get(what, MOST_OF_A_KIND)
+            most = MOST_OF_UNKNOWN_GOALS if of == UNKNOWN_GOAL else MOST_OF.get(what, MOST_OF_A_KIND)
             admitted = self._counts[what, of] <= most and self._bytes < LARGEST_RECORD
         if not admitted:
             self.drop(what)

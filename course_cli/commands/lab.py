@@ -9,7 +9,7 @@ from importlib.util import find_spec
 import typer
 from rich.console import Console
 
-from course_cli.ending import COULD_NOT, ended
+from course_cli.ending import COMMAND_FAILED, ended
 from course_cli.work_folder import work_folder
 from ros_cli.real_ros2 import path_with_ros2
 from ros_runtime import notebook_domains
@@ -33,7 +33,7 @@ def lab(context: typer.Context) -> None:
         folder = work_folder()
     except OSError as error:
         reason = f"your notebooks cannot be kept: {error}.\nNext: COURSE_WORK=/a/folder/of/yours ./course lab"
-        raise ended(Console(), reason, COULD_NOT) from error
+        raise ended(Console(), reason, COMMAND_FAILED) from error
     # Not a login shell, whose /etc/profile would take `ros2` off the PATH.
     terminals = {"shell_command": [os.environ.get("SHELL") or "bash"]}
     command = [
@@ -55,7 +55,7 @@ def _server() -> str:
     if find_spec("jupyterhub") is None:
         line = f"{PROJECT}/.venv/bin/uv pip install --python {PROJECT}/.venv/bin/python jupyterhub"
         reason = f"JupyterHub starts this, and the course's environment lacks it.\nNext: {line}"
-        raise ended(Console(soft_wrap=True), reason, COULD_NOT)
+        raise ended(Console(soft_wrap=True), reason, COMMAND_FAILED)
     return "jupyterhub.singleuser"
 
 

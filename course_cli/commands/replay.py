@@ -11,7 +11,7 @@ from rich.console import Console
 from autograder.recording.replay.film import film, require_known_format
 from autograder.recording.replay.recording import NoRecording, Recording, Span, require_postures, span_of
 from autograder.recording.replay.text import line, time_line, title
-from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.ending import COMMAND_FAILED, UNUSABLE, ended
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 
@@ -58,7 +58,7 @@ def replay(
     except ValueError as error:
         raise ended(console, error, UNUSABLE) from error
     except (NoOpenGLError, OSError) as error:
-        raise ended(console, error, COULD_NOT) from error
+        raise ended(console, error, COMMAND_FAILED) from error
 
 
 def _in_the_browser(console: Console, recording: Recording, span: Span, port: int) -> None:
@@ -74,6 +74,6 @@ def _in_the_browser(console: Console, recording: Recording, span: Span, port: in
         )
     except ImportError as error:
         reason = "the web view needs MuJoCo 4, which needs Python 3.11 or newer; use --film or --text"
-        raise ended(console, NoRecording(reason), COULD_NOT) from error
+        raise ended(console, NoRecording(reason), COMMAND_FAILED) from error
     except KeyboardInterrupt:
         return

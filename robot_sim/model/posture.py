@@ -10,9 +10,7 @@ from robot_sim.model.dimensions import Dimensions
 from robot_sim.model.joint_names import UPPER_BODY_JOINTS
 from robot_sim.model.side import SIDES, Side
 
-HIPS_AHEAD = (
-    0.014  # m, by which the hips are ahead of the ankles: the centre of mass is above the soles' centres
-)
+HIPS_AHEAD = 0.014  # m, ahead of the ankles, so that the centre of mass is above the soles' centres
 ARMS_AT_REST = {  # rad, left arm; mirrored joints change sign on the right
     "shoulder_pitch": 0.2,
     "shoulder_roll": 0.15,

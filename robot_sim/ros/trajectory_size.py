@@ -8,9 +8,9 @@ from robot_sim.arms.joint_trajectory import MOVABLE
 
 MOST_POINTS = 500
 MOST_JOINTS = 64  # more than the robot has, so that an unknown name is reported by name
-_HEAD = 8192  # bytes for the header and the joints' names
-_POINT = 8 + 4 * (8 + 8 * len(MOVABLE))  # bytes: a duration and four lists, each with its length
-MOST_BYTES = _HEAD + MOST_POINTS * _POINT
+_HEAD_BYTES = 8192  # bytes for the header and the joints' names
+_POINT_BYTES = 8 + 4 * (8 + 8 * len(MOVABLE))  # bytes: a duration and four lists, each with its length
+MOST_BYTES = _HEAD_BYTES + MOST_POINTS * _POINT_BYTES
 
 
 def why_too_large(message: bytes) -> str:

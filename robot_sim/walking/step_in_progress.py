@@ -20,9 +20,7 @@ SHORTEST_NOTICE = 0.05  # s from now to the earliest time to which touchdown can
 TIMING_PROGRESS = 0.8  # share of the swing; later the touchdown time is fixed
 OVERDUE_SHARE = 1.4  # multiple of the swing duration; after that the foot counts as landed
 SAFE_LEVER = 0.005  # m, least distance of DCM and CoP for which the step's timing can be computed
-BEYOND_OUTER_EDGE = (
-    -0.75
-)  # half-widths of the sole; a DCM below this lies beyond the stance foot's outer edge
+BEYOND_OUTER_EDGE = -0.75  # half-widths of the sole; a DCM below this is beyond the stance foot's edge
 
 
 class StepInProgress:

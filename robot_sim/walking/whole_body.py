@@ -201,13 +201,13 @@ class WholeBody:
         angular[2] += swing.yaw_acceleration + gains.swing_turn_damping * swing.yaw_rate
         return linear + angular
 
-    def _filter_cop_shift(self, produced: Point, asked: Point, dt: float) -> None:
+    def _filter_cop_shift(self, produced: Point, wanted: Point, dt: float) -> None:
         gains = self._balance
         fresh = 1 - gains.cop_shift_filter ** (dt / gains.cop_shift_period)
         x, y = self.cop_shift
         self.cop_shift = (
-            x + fresh * (produced[0] - asked[0] - x),
-            y + fresh * (produced[1] - asked[1] - y),
+            x + fresh * (produced[0] - wanted[0] - x),
+            y + fresh * (produced[1] - wanted[1] - y),
         )
 
 

@@ -12,9 +12,7 @@ from ros_runtime.record.event import Event
 
 E = TypeVar("E", bound=Event)
 
-CONDITION_PERIOD = (
-    1.0  # s between two tests of a condition, which may also depend on a process, not only on the log
-)
+CONDITION_PERIOD = 1.0  # s between two tests of a condition, which may depend on more than the log
 
 
 class EventLog:

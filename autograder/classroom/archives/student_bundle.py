@@ -10,7 +10,7 @@ from pathlib import Path
 
 from autograder.classroom.nbgrader_bridge.release import generate_release
 from autograder.engine.exercise import all_names, exercise_names, exercises_folder, file_names, load_exercise
-from ros_runtime.course_error import COULD_NOT, CourseError
+from ros_runtime.course_error import COMMAND_FAILED, CourseError
 
 TOP = "humanoid-course"  # the folder the archive unpacks to
 README = "docs/for_students.md"  # becomes their README.md; the clone's own is for instructors
@@ -52,7 +52,7 @@ _DATED = (2026, 1, 1, 0, 0, 0)
 class Leak(CourseError):
     """A file of the archive contains a solution or a hidden check."""
 
-    exit_status = COULD_NOT
+    exit_status = COMMAND_FAILED
 
 
 def write_bundle(root: Path, archive: Path) -> int:

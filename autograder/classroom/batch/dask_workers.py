@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from autograder.classroom.batch.worker_pool import Workers
 from autograder.isolation.availability import Isolation, available_isolation
-from ros_runtime.course_error import COULD_NOT, CourseError
+from ros_runtime.course_error import COMMAND_FAILED, CourseError
 
 AT_A_TIME = 1000  # jobs submitted ahead, so that an adaptive cluster sees the demand and grows
 _PATIENCE = 30.0  # s for the scheduler to answer and for a first worker
@@ -19,7 +19,7 @@ _PATIENCE = 30.0  # s for the scheduler to answer and for a first worker
 class NoCluster(CourseError):
     """There is no cluster to work on; the message says why, and what to do."""
 
-    exit_status = COULD_NOT
+    exit_status = COMMAND_FAILED
 
 
 @dataclass(frozen=True)

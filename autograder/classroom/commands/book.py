@@ -14,7 +14,7 @@ from rich.console import Console
 from autograder.classroom.book.chapter_run import execute as execute_chapter
 from autograder.classroom.book.kept_runs import KeptRuns
 from autograder.classroom.book.site import make_site
-from course_cli.ending import COULD_NOT, ended
+from course_cli.ending import COMMAND_FAILED, ended
 from ros_runtime.project import PROJECT
 
 WORK = PROJECT / "build" / "book"
@@ -41,7 +41,7 @@ def book(
         raise ended(
             console,
             "Interrupted. Finished chapters are kept: type the same command again to continue.",
-            COULD_NOT,
+            COMMAND_FAILED,
         ) from None
     console.print(f"The book: {first_page}", markup=False, soft_wrap=True)
 

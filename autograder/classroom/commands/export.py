@@ -13,7 +13,7 @@ from rich.console import Console
 from autograder.classroom.export.formats import FORMATS, Export, LeftOut, read_batch
 from autograder.classroom.export.formats import export as make_export
 from autograder.classroom.export.published import Options, UnusableBatch
-from course_cli.ending import COULD_NOT, ended
+from course_cli.ending import COMMAND_FAILED, ended
 
 Format = Enum("Format", {name: name for name in FORMATS}, type=str)  # type: ignore[misc]
 
@@ -79,11 +79,11 @@ def export(
     try:
         made.write(folder)
     except OSError as error:
-        raise ended(console, f"{folder} cannot be written: {error}", COULD_NOT) from error
+        raise ended(console, f"{folder} cannot be written: {error}", COMMAND_FAILED) from error
     _tell(console, made, folder)
     lost = any(left.has_score for left in made.left_out)
     unsaid = format_.value == "classroom50" and any(left.why == "not graded" for left in made.left_out)
-    raise typer.Exit(COULD_NOT if lost or unsaid else 0)
+    raise typer.Exit(COMMAND_FAILED if lost or unsaid else 0)
 
 
 def _tell(console: Console, made: Export, folder: Path) -> None:

@@ -12,7 +12,7 @@ from autograder.classroom.archives.student_bundle import write_bundle
 from autograder.classroom.nbgrader_bridge.course_folder import NbgraderError
 from autograder.classroom.nbgrader_bridge.release import bring_up_to_date, out_of_date
 from autograder.engine.exercise import exercises_folder
-from course_cli.ending import COULD_NOT, UNUSABLE, ended
+from course_cli.ending import COMMAND_FAILED, UNUSABLE, ended
 from course_cli.options import CourseOption
 from ros_runtime.project import PROJECT
 
@@ -52,7 +52,7 @@ def _release(console: Console, out: Path, exercises: bool, check: bool) -> None:
             console.print(f"{path.relative_to(solutions.parent)} is out of date", style="red", markup=False)
         if differing:
             console.print("Run ./course release --exercises and commit what it changes.")
-        raise typer.Exit(COULD_NOT if differing else 0)
+        raise typer.Exit(COMMAND_FAILED if differing else 0)
     if exercises:
         for path in bring_up_to_date(solutions, released):
             console.print(f"{path.relative_to(solutions.parent)} renewed", markup=False)

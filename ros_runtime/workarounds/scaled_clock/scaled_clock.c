@@ -478,10 +478,10 @@ int __poll_chk(struct pollfd *fds, nfds_t count, int timeout_ms, size_t size)
 /* A pselect that times out empties the sets, so each piece starts with the caller's sets again. */
 static int select_until(int count, fd_set *sets[3], int64_t deadline, const sigset_t *mask)
 {
-    fd_set asked[3];
+    fd_set requested[3];
     for (int i = 0; i < 3; i++)
         if (sets[i])
-            asked[i] = *sets[i];
+            requested[i] = *sets[i];
     for (;;) {
         struct piece piece = next_piece(deadline);
         int ready = libc.pselect(count, sets[0], sets[1], sets[2], &piece.duration, mask);
@@ -489,7 +489,7 @@ static int select_until(int count, fd_set *sets[3], int64_t deadline, const sigs
             return ready;
         for (int i = 0; i < 3; i++)
             if (sets[i])
-                *sets[i] = asked[i];
+                *sets[i] = requested[i];
     }
 }
 

@@ -117,8 +117,8 @@ def test_check_keeps_visible_scenarios_only_and_names_the_folder(tmp_path: Path)
     assert files
     assert {path.stem.split("-")[0] for path in files} <= visible
     assert f"{len(files)} recordings in recordings/battery_service" in ran.stdout
-    told = {moment.check for path in files for moment in Recording.read(path).moments if moment.check}
+    shown = {moment.check for path in files for moment in Recording.read(path).moments if moment.check}
     checks = json.loads((tmp_path / "verdicts.json").read_text())["checks"]
-    assert told == {check["id"] for check in checks}
+    assert shown == {check["id"] for check in checks}
     assert any(Recording.read(path).first_failed for path in files)
     assert all(Recording.read(path).about["shows_hidden_checks"] == "no" for path in files)

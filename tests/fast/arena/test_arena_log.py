@@ -16,7 +16,7 @@ from sensor_msgs.msg import BatteryState, JointState
 from std_msgs.msg import String, UInt8MultiArray
 
 from autograder.arena import arena_log as arena_log_module
-from autograder.arena.arena_log import MAX_LENGTH, MOST_OF, MOST_OF_NOBODYS, ArenaLog
+from autograder.arena.arena_log import MAX_LENGTH, MOST_OF, MOST_OF_UNKNOWN_GOALS, ArenaLog
 from autograder.authoring.evidence import events as ev
 from ros_runtime.recorded_client.conversation import UNKNOWN_GOAL
 
@@ -51,7 +51,7 @@ def recording(tmp_path: Any) -> Iterator[Recording]:
 
 
 def test_a_flood_of_feedback_for_unknown_goals_does_not_displace_other_feedback(recording: Recording) -> None:
-    for _ in range(MOST_OF_NOBODYS + 600):
+    for _ in range(MOST_OF_UNKNOWN_GOALS + 600):
         recording.feedback("unknown 0000", of=UNKNOWN_GOAL)
     recording.feedback("walk")
     assert recording.of(ev.FeedbackReceived)[-1].goal == "walk"

@@ -18,7 +18,7 @@ from std_srvs.srv import SetBool, Trigger
 from unique_identifier_msgs.msg import UUID
 
 from autograder.arena import events as ev
-from autograder.arena.arena_log import MOST_OF, MOST_OF_NOBODYS, ArenaLog
+from autograder.arena.arena_log import MOST_OF, MOST_OF_UNKNOWN_GOALS, ArenaLog
 from autograder.arena.bounded_reading import LARGEST, BoundedReading, size_of
 from autograder.arena.scripted_service import Reply, ScriptedService
 from humanoid_interfaces.action import WalkTo
@@ -161,7 +161,7 @@ def test_the_size_of_a_message_is_known_without_deserializing_it(fields: dict[st
 
 def test_feedback_for_unknown_goals_does_not_displace_feedback_of_known_goals(log: ArenaLog) -> None:
     walking = Walking(log)
-    for _ in range(MOST_OF_NOBODYS + 600):
+    for _ in range(MOST_OF_UNKNOWN_GOALS + 600):
         walking.on_feedback(walking.feedback(goal_id=UNKNOWN_ID))
     walking.on_feedback(walking.feedback())
     assert log.count(ev.FeedbackReceived, goal="walk") == len(walking.goal.feedback) == 1
@@ -207,13 +207,13 @@ def test_a_status_is_recorded_when_it_changes(log: ArenaLog) -> None:
 
 def test_the_number_of_stored_statuses_of_unknown_goals_is_limited(log: ArenaLog) -> None:
     walking = Walking(log)
-    for start in range(0, MOST_OF_NOBODYS + 500, 500):
+    for start in range(0, MOST_OF_UNKNOWN_GOALS + 500, 500):
         walking.on_status(
             walking.statuses(*(number.to_bytes(16, "little") for number in range(start + 1, start + 501)))
         )
     walking.on_status(walking.statuses())
     seen = log.all(ev.StatusSeen)
-    assert len(seen) == MOST_OF_NOBODYS + 1
+    assert len(seen) == MOST_OF_UNKNOWN_GOALS + 1
     assert seen[-1].goal == "walk"
     assert dropped(log) == [(ev.StatusSeen.kind, 500)]
 

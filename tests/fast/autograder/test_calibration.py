@@ -32,7 +32,7 @@ def calibration(
     imu_until: float = END,
 ) -> Transcript:
     """One calibration; get_status answers at `reply` (s; None: never), and the robot walks in between."""
-    told = [
+    prints = [
         ev.RobotCommanded(t=t, command={"do": "gyro_bias", "bias": list(bias)})
         for t, bias in ((2.0, BEFORE), (6.0, BIAS))
     ]
@@ -64,7 +64,7 @@ def calibration(
         asked("only", TRUTH.SERVICE, t=SENT),
         answered("only", t=ANSWERED, response=response),
     ]
-    return run_of(*told, *imu, *body, *status, *call, *others, until=END)
+    return run_of(*prints, *imu, *body, *status, *call, *others, until=END)
 
 
 def published(*vector: float, frame: str = "imu_link", t: float = ANSWERED) -> ev.Event:

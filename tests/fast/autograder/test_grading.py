@@ -244,13 +244,13 @@ def test_a_failure_counts_only_if_it_occurs_twice(monkeypatch, marks, status):
 
 def test_the_running_scenario_is_reported(monkeypatch, two_checks):
     arenas(monkeypatch, lambda scenario, scale: transcript(scenario, mark="here"))
-    told = []
+    reported = []
     watcher = grading.Watcher(
-        on_running=lambda scenarios: told.append([scenario.name for scenario in scenarios])
+        on_running=lambda scenarios: reported.append([scenario.name for scenario in scenarios])
     )
     graded(two_checks, watcher=watcher, jobs=1)
-    assert [names for names in told if names] == [["first"], ["second"]]
-    assert told[-1] == []
+    assert [names for names in reported if names] == [["first"], ["second"]]
+    assert reported[-1] == []
 
 
 def test_hidden_checks_are_refused_without_isolation(monkeypatch):

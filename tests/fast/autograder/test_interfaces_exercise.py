@@ -35,32 +35,36 @@ def failure_of(check, file, report):
 
 
 def test_a_field_in_another_part_asks_for_the_separator():
-    told = failure("goal_has_its_fields", goal=part({}), result=part(GOAL), feedback=part({}))
-    assert told.help == "`pose` is in the result. Is a --- missing or misplaced?"
+    reported = failure("goal_has_its_fields", goal=part({}), result=part(GOAL), feedback=part({}))
+    assert reported.help == "`pose` is in the result. Is a --- missing or misplaced?"
     without_tolerance = {name: GOAL[name] for name in ("pose",)}
-    told = failure("goal_has_its_fields", goal=part(without_tolerance), result=part(GOAL), feedback=part({}))
-    assert told.help == "`tolerance` is in the result. Is a --- missing or misplaced?"
+    reported = failure(
+        "goal_has_its_fields", goal=part(without_tolerance), result=part(GOAL), feedback=part({})
+    )
+    assert reported.help == "`tolerance` is in the result. Is a --- missing or misplaced?"
 
 
 def test_a_constant_in_another_part_asks_for_the_separator_too():
     none = {"NONE": {"type": "uint16", "value": 0}}
-    told = failure("error_codes_have_names", goal=part(GOAL), result=part(RESULT), feedback=part({}, none))
-    assert told.help == "`NONE` is in the feedback. Is a --- missing or misplaced?"
+    reported = failure(
+        "error_codes_have_names", goal=part(GOAL), result=part(RESULT), feedback=part({}, none)
+    )
+    assert reported.help == "`NONE` is in the feedback. Is a --- missing or misplaced?"
 
 
 def test_a_missing_line_is_given():
-    told = failure("result_has_its_fields", goal=part(GOAL), result=part({"error_code": "uint16"}))
-    assert told.help == "Add the line “string error_msg” to the result."
-    told = failure("error_codes_have_names", goal=part(GOAL), result=part(RESULT))
-    assert told.help.startswith("Add the line “uint16 NONE=0” to the result")
+    reported = failure("result_has_its_fields", goal=part(GOAL), result=part({"error_code": "uint16"}))
+    assert reported.help == "Add the line “string error_msg” to the result."
+    reported = failure("error_codes_have_names", goal=part(GOAL), result=part(RESULT))
+    assert reported.help.startswith("Add the line “uint16 NONE=0” to the result")
 
 
 def test_a_field_of_another_name_is_to_be_renamed():
     response = {"success": "bool", **{name: RESPONSE[name] for name in ("battery", "message")}}
-    told = failure(
+    reported = failure(
         "response_has_its_fields", "GetBatteryStatus.srv", request=part({}), response=part(response)
     )
-    assert told.help.startswith("Rename `success` to `available`")
+    assert reported.help.startswith("Rename `success` to `available`")
 
 
 @pytest.mark.parametrize(
@@ -71,9 +75,9 @@ def test_a_field_of_another_name_is_to_be_renamed():
     ],
 )
 def test_a_wrong_type_is_reported_with_the_right_one(fields, reason):
-    told = failure("goal_has_its_fields", goal=part(GOAL | fields))
-    assert reason in told.help
-    assert told.help.startswith("Write ")
+    reported = failure("goal_has_its_fields", goal=part(GOAL | fields))
+    assert reason in reported.help
+    assert reported.help.startswith("Write ")
 
 
 def test_a_constant_of_another_value():
@@ -82,8 +86,8 @@ def test_a_constant_of_another_value():
 
 
 def test_a_field_too_many_is_to_be_removed():
-    told = failure("result_has_its_fields", result=part(RESULT | {"success": "bool"}))
-    assert told.help.startswith("Remove `success`")
+    reported = failure("result_has_its_fields", result=part(RESULT | {"success": "bool"}))
+    assert reported.help.startswith("Remove `success`")
 
 
 @pytest.mark.parametrize(
@@ -106,6 +110,6 @@ def test_a_file_that_was_not_handed_in(tmp_path):
         read_definitions(tmp_path, "my_interfaces", KnownTypes({}))
     problems = [asdict(problem) for problem in nothing.value.problems]
     report = {"built": False, "problems": problems, "more": 0, "log": ""}
-    told = failure_of("action_builds", "NavigateToPose.action", report)
-    assert told.observed == "it was not handed in"
-    assert "%%writefile NavigateToPose.action" in told.help
+    reported = failure_of("action_builds", "NavigateToPose.action", report)
+    assert reported.observed == "it was not handed in"
+    assert "%%writefile NavigateToPose.action" in reported.help

@@ -50,14 +50,14 @@ def judge(obligation, *events, steps=()):
 
 
 def test_a_name_that_was_asked_for_twice_is_answered_twice():
-    heard = list(published(0.2, 3.0))
-    assert judge("keeps_the_order_asked", heard, asked(2.5, ["r_elbow", "l_elbow", "r_elbow"])) == {
+    messages = list(published(0.2, 3.0))
+    assert judge("keeps_the_order_asked", messages, asked(2.5, ["r_elbow", "l_elbow", "r_elbow"])) == {
         "a name twice": 1
     }
     once = [*asked(2.5, ["r_elbow", "l_elbow", "r_elbow"])]
     once[1].response.joint_state.name = ["r_elbow", "l_elbow"]
     with pytest.raises(Failure) as failure:
-        judge("keeps_the_order_asked", heard, once)
+        judge("keeps_the_order_asked", messages, once)
     assert failure.value.help.endswith("A name that was asked for twice is answered twice.")
 
 
@@ -94,19 +94,19 @@ def test_a_node_that_does_not_subscribe_fails():
 
 def test_while_no_messages_come_the_last_one_stays_the_answer():
     off = ev.RobotCommanded(t=3.0, command={"do": "joint_sensors", "connected": False})
-    heard = [*published(0.2, 3.0), off]
-    assert judge("finds_the_joints", heard, asked(14.0, ["l_elbow"])) == {"silence of 10 s or more": 1}
+    messages = [*published(0.2, 3.0), off]
+    assert judge("finds_the_joints", messages, asked(14.0, ["l_elbow"])) == {"silence of 10 s or more": 1}
     with pytest.raises(Failure) as failure:
-        judge("finds_the_joints", heard, asked(14.0, ["l_elbow"], success=False))
+        judge("finds_the_joints", messages, asked(14.0, ["l_elbow"], success=False))
     assert "no reason to forget it" in failure.value.help
 
 
 @pytest.mark.parametrize("name", ["elbow", "R_Elbow", " r_elbow", "r_elbow ", "", "tail"])
 def test_names_count_letter_by_letter(name):
-    heard = list(published(0.2, 3.0))
-    assert judge("refuses_unknown_joints", heard, asked(2.5, ["l_elbow", name], success=False))
+    messages = list(published(0.2, 3.0))
+    assert judge("refuses_unknown_joints", messages, asked(2.5, ["l_elbow", name], success=False))
     with pytest.raises(Failure, match="success: false"):
-        judge("refuses_unknown_joints", heard, asked(2.5, ["l_elbow", name]))
+        judge("refuses_unknown_joints", messages, asked(2.5, ["l_elbow", name]))
 
 
 @pytest.mark.parametrize("message", ["no r_elbow", "no such joint: r_elbow_2", "l_elbow, which is known"])

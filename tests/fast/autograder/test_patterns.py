@@ -49,8 +49,8 @@ def test_what_is_not_answered_is_named():
 
 def test_no_output_and_a_wrong_format_are_distinguished():
     assert "Nothing was printed" in verdicts()["answers_everything"].help
-    told = verdicts("1) I say: topic, because of a")["situation_1"]
-    assert "is of another form" in told.help
+    verdict = verdicts("1) I say: topic, because of a")["situation_1"]
+    assert "is of another form" in verdict.help
 
 
 def test_an_answer_in_a_wrong_format_does_not_affect_others():

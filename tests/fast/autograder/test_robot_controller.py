@@ -98,8 +98,8 @@ def test_for_a_program_that_hangs_the_running_line_is_reported(parts, where):
 
 def test_a_program_that_waits_for_a_dead_server_gets_that_explanation():
     gone = [ev.ServiceWithdrawn(t=3.5, service=STATUS, server=f"server of {STATUS}")]
-    told = failure("survives_a_dying_server", BOTH, ENABLED, asked(STATUS, 3.0), gone, HUNG)
-    assert "It hung after request 1 (to get_status) was sent, when the server had died" in told.help
+    failed = failure("survives_a_dying_server", BOTH, ENABLED, asked(STATUS, 3.0), gone, HUNG)
+    assert "It hung after request 1 (to get_status) was sent, when the server had died" in failed.help
 
 
 # -- it fails where all would have gone well --------------------------------------------------------------------------
@@ -163,9 +163,9 @@ def test_a_program_that_waits_for_a_dead_server_gets_that_explanation():
     ],
 )
 def test_for_a_program_that_gives_up_too_early_the_missed_answer_is_reported(parts, observed, what_to_do):
-    told = failure("prints_the_status", *parts, status="Motors: ON")
-    assert told.observed.startswith(observed) or observed in told.observed
-    assert what_to_do in told.help
+    failed = failure("prints_the_status", *parts, status="Motors: ON")
+    assert failed.observed.startswith(observed) or observed in failed.observed
+    assert what_to_do in failed.help
 
 
 @pytest.mark.parametrize(
@@ -180,14 +180,16 @@ def test_for_a_program_that_gives_up_too_early_the_missed_answer_is_reported(par
 )
 def test_what_is_wrong_with_the_printed_line(output, what_to_do):
     answered = asked(STATUS, 2.5, 2.6)
-    told = failure("prints_the_status", BOTH, ENABLED, answered, output, ended(3.2, 0), status="Motors: ON")
-    assert what_to_do in told.help
+    failed = failure("prints_the_status", BOTH, ENABLED, answered, output, ended(3.2, 0), status="Motors: ON")
+    assert what_to_do in failed.help
 
 
 def test_a_program_that_finds_no_server_because_of_a_leading_slash_is_told():
-    told = failure("works_in_any_namespace", BOTH, said(3.0, "nobody offers it"), ended(3.2, 1), status="it")
-    assert told.expected == "a request to enable_motors in the namespace in which the program was started"
-    assert "are all names relative" in told.help
+    failed = failure(
+        "works_in_any_namespace", BOTH, said(3.0, "nobody offers it"), ended(3.2, 1), status="it"
+    )
+    assert failed.expected == "a request to enable_motors in the namespace in which the program was started"
+    assert "are all names relative" in failed.help
 
 
 # -- it does not fail as it should ------------------------------------------------------------------------------------
@@ -195,24 +197,24 @@ def test_a_program_that_finds_no_server_because_of_a_leading_slash_is_told():
 
 def test_a_refusal_that_is_not_looked_at():
     refused, went_on = asked(ENABLE, 2.0, 2.1, REFUSED), asked(STATUS, 2.2, 2.3)
-    told = failure("reports_a_refusal", BOTH, refused, went_on, PRINTED, ended(3.2, 0))
-    assert told.observed == "You asked get_status although enable_motors answered success: false."
-    assert told.help == "Look at response.success and return 1."
+    failed = failure("reports_a_refusal", BOTH, refused, went_on, PRINTED, ended(3.2, 0))
+    assert failed.observed == "You asked get_status although enable_motors answered success: false."
+    assert failed.help == "Look at response.success and return 1."
 
 
 @pytest.mark.parametrize("status", [2, 3])
 def test_a_refusal_is_exit_status_1_like_every_other_failure(status):
     refused, words = asked(ENABLE, 2.0, 2.1, REFUSED), said(2.2, "the motors stay off")
-    told = failure("reports_a_refusal", BOTH, refused, words, ended(2.4, status))
-    assert told.expected == "exit status 1: enable_motors answered success: false"
-    assert told.observed == f"exit status {status}; the last line on stderr: the motors stay off"
-    assert "2 to 4 are for goals of actions" in told.help
+    failed = failure("reports_a_refusal", BOTH, refused, words, ended(2.4, status))
+    assert failed.expected == "exit status 1: enable_motors answered success: false"
+    assert failed.observed == f"exit status {status}; the last line on stderr: the motors stay off"
+    assert "2 to 4 are for goals of actions" in failed.help
 
 
 def test_an_exit_status_that_main_does_not_return_is_explained():
-    told = failure("gives_up_without_servers", said(3.0, "no server"), ended(3.2, 0))
-    assert told.observed == "exit status 0; the last line on stderr: no server"
-    assert "sys.exit(main())" in told.help
+    failed = failure("gives_up_without_servers", said(3.0, "no server"), ended(3.2, 0))
+    assert failed.observed == "exit status 0; the last line on stderr: no server"
+    assert "sys.exit(main())" in failed.help
 
 
 @pytest.mark.parametrize(
@@ -225,32 +227,32 @@ def test_an_exit_status_that_main_does_not_return_is_explained():
 def test_too_few_and_too_many_requests(requests, observed, what_to_do):
     sent = [asked(ENABLE, 2.0 * number) for number in range(1, requests + 1)]
     gave_up = 2.0 * requests + 2.0
-    told = failure("asks_once_more", BOTH, *sent, said(gave_up, "no answer"), ended(gave_up + 0.1, 1))
-    assert told.observed == observed
-    assert what_to_do in told.help
+    failed = failure("asks_once_more", BOTH, *sent, said(gave_up, "no answer"), ended(gave_up + 0.1, 1))
+    assert failed.observed == observed
+    assert what_to_do in failed.help
 
 
 @pytest.mark.parametrize(("second", "what_to_do"), [(2.5, "too early"), (6.5, "too long")])
 def test_a_pause_that_is_too_short_or_too_long(second, what_to_do):
-    told = failure("asks_once_more", BOTH, asked(ENABLE, 2.0), asked(ENABLE, second), ended(9.0, 1))
-    assert what_to_do in told.help
+    failed = failure("asks_once_more", BOTH, asked(ENABLE, 2.0), asked(ENABLE, second), ended(9.0, 1))
+    assert what_to_do in failed.help
 
 
 @pytest.mark.parametrize("first", [asked(STATUS, 3.0), asked(STATUS, 3.0, 5.4)])
 def test_a_second_request_that_gets_too_little_time(first):
     ends = ended(5.6, 1)
-    told = failure(
+    failed = failure(
         "is_not_confused_by_a_late_answer", BOTH, ENABLED, first, asked(STATUS, 5.0), said(5.5, "no"), ends
     )
-    assert told.observed == "it gave up 0.5 s after it"
-    assert "2 s, each time" in told.help
+    assert failed.observed == "it gave up 0.5 s after it"
+    assert "2 s, each time" in failed.help
 
 
 def test_a_refusal_that_is_asked_again():
     refused, again = asked(ENABLE, 2.0, 2.1, REFUSED), asked(ENABLE, 4.0, 4.1, REFUSED)
-    told = failure("reports_a_refusal", BOTH, refused, again, said(4.2, "refused"), ended(4.3, 1))
-    assert told.observed == "2 requests: the first was answered after 0.1 s"
-    assert "do not ask again" in told.help
+    failed = failure("reports_a_refusal", BOTH, refused, again, said(4.2, "refused"), ended(4.3, 1))
+    assert failed.observed == "2 requests: the first was answered after 0.1 s"
+    assert "do not ask again" in failed.help
 
 
 def test_the_data_of_the_second_request():
@@ -259,8 +261,8 @@ def test_the_data_of_the_second_request():
             t=4.0, request="r", service=ENABLE, server=f"server of {ENABLE}", message=SetBool.Request()
         )
     ]
-    told = failure("asks_once_more", BOTH, asked(ENABLE, 2.0), second, said(6.0, "silent"), ended(6.1, 1))
-    assert told.observed == "data: false in the second request"
+    failed = failure("asks_once_more", BOTH, asked(ENABLE, 2.0), second, said(6.0, "silent"), ended(6.1, 1))
+    assert failed.observed == "data: false in the second request"
 
 
 # -- one deadline over everything -------------------------------------------------------------------------------------
@@ -286,10 +288,10 @@ def test_a_deadline_of_10_s_is_kept_also_where_the_program_takes_its_time_to_end
 
 
 def test_separate_timeouts_do_not_make_a_deadline():
-    with pytest.raises(Failure) as told:
+    with pytest.raises(Failure) as failed:
         CHECKS["keeps_one_deadline"].run([run_of(late(12.2, 12.5))])
-    assert told.value.observed == "it gave up after 11.2 s; get_status was asked at 6.3 s and 8.3 s"
-    assert "at most what is left of it" in told.value.help
+    assert failed.value.observed == "it gave up after 11.2 s; get_status was asked at 6.3 s and 8.3 s"
+    assert "at most what is left of it" in failed.value.help
 
 
 def test_the_scenario_distinguishes_programs_with_and_without_a_deadline():
@@ -328,7 +330,7 @@ def test_a_program_may_look_for_both_servers_at_once_or_in_turn(gave_up):
     ],
 )
 def test_a_search_that_is_too_short_or_too_long(parts, observed):
-    with pytest.raises(Failure) as told:
+    with pytest.raises(Failure) as failed:
         MODEL.looks_for_two_seconds.judge(run_of(parts))
-    assert told.value.observed == observed
-    assert "timeout_sec=2.0" in told.value.help
+    assert failed.value.observed == observed
+    assert "timeout_sec=2.0" in failed.value.help

@@ -163,15 +163,15 @@ def test_instructors_read_the_same_minutes_as_students() -> None:
 
 def test_instructors_read_how_many_points_are_hidden() -> None:
     page = (DOCS / "for_instructors.md").read_text()
-    told = {
+    stated = {
         name: (int(shown), int(kept)) for name, shown, kept in re.findall(r"`(\w+)` \| (\d+) \| (\d+)", page)
     }
     for name in exercise_names():
         checks = load_exercise(name, hidden=True).checks
-        assert told.pop(name) == tuple(
+        assert stated.pop(name) == tuple(
             sum(check.points for check in checks if check.hidden is hidden) for hidden in (False, True)
         )
-    assert told == {}
+    assert stated == {}
 
 
 def test_a_notebook_that_says_how_long_it_takes_says_what_the_start_page_says() -> None:

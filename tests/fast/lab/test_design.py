@@ -21,7 +21,7 @@ WHOLE = HALF + "    failure: after 0.5 s it says so\n    safety: it moves nothin
 def kept(monkeypatch: pytest.MonkeyPatch) -> list[tuple]:
     """The entry that is stored for the progress page."""
     made: list[tuple] = []
-    monkeypatch.setattr(module, "keep_check", lambda *check: made.append(check))
+    monkeypatch.setattr(module, "store_check", lambda *check: made.append(check))
     return made
 
 

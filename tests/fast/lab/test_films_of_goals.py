@@ -116,8 +116,10 @@ def travel(stage: Stage) -> HTML:
     stage.recording.note(GoalSent(t=1000.0, goal="go 1", action="go", request=goal))
     stage.recording.note(GoalAnswered(t=1000.02, goal="go 1", accepted=True))
     for at, phase in ((0.1, "walking"), (0.5, "walking"), (1.1, "turning"), (1.5, "walking")):
-        told = FeedbackReceived(t=1000.0 + at, goal="go 1", feedback=NavigateToPose.Feedback(status=phase))
-        stage.recording.note(told)
+        feedback = FeedbackReceived(
+            t=1000.0 + at, goal="go 1", feedback=NavigateToPose.Feedback(status=phase)
+        )
+        stage.recording.note(feedback)
     stage.now = 1000.0 + FLASHING - 0.2
     stage.recording.mark("push")
     stage.recording.note(ResultReceived(t=1001.9, goal="go 1", status=4, result=NavigateToPose.Result()))

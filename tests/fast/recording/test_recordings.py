@@ -108,8 +108,8 @@ def test_a_failed_check_is_an_error_at_its_time_and_a_passed_one_is_not(fall: An
     assert "Keep the motors on." in text
     assert lines["accepts"][:2] == (2.0, INFO)
     assert lines["walker"] == (0.5, WARN, "slow")
-    told = [line.msg for _, _, line in found["/arena/events"]]
-    assert any("goal “first” of walk_to" in text and "max_velocity=0.3" in text for text in told)
+    recorded = [line.msg for _, _, line in found["/arena/events"]]
+    assert any("goal “first” of walk_to" in text and "max_velocity=0.3" in text for text in recorded)
 
 
 def test_a_flood_does_not_fill_the_disk_nor_push_out_the_robot(tmp_path: Path) -> None:
@@ -154,11 +154,11 @@ def test_students_recordings_contain_no_hidden_checks(tmp_path: Path) -> None:
         made[for_students] = recorder.files(Grade("walk_to", "zoe", "namespaces", verdicts))
     assert set(made[True]) == {"walk.mcap"}
     assert set(made[False]) == {"walk.mcap", f"{PUSH.name}.mcap"}
-    told = {
+    recorded = {
         for_students: {line.function for _, _, line in read(tmp_path, files["walk.mcap"])["/rosout"]}
         for for_students, files in made.items()
     }
-    assert told == {True: {"", "accepts"}, False: {"", "accepts", "unseen"}}
+    assert recorded == {True: {"", "accepts"}, False: {"", "accepts", "unseen"}}
 
 
 def test_the_run_on_which_a_point_was_lost_is_kept_whatever_comes_after(tmp_path: Path) -> None:

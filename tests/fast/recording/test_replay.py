@@ -193,7 +193,7 @@ def test_the_web_view_shows_the_fall_and_prints_each_event_once(
     span = Span(FELL_AT - 0.3, FELL_AT + 0.1)
     expected = [moment for moment in recording.moments if span.start <= moment.t <= span.end]
     clock = count()  # each look at the clock is a frame of 0.04 s later
-    told: list[Moment] = []
+    shown: list[Moment] = []
     monkeypatch.setattr(web, "WebView", Seen)
     monkeypatch.setattr(
         web, "time", SimpleNamespace(monotonic=lambda: next(clock) / 25, sleep=lambda _: None)
@@ -204,11 +204,11 @@ def test_the_web_view_shows_the_fall_and_prints_each_event_once(
         span,
         0,
         ready=lambda url: None,
-        tell=told.append,
+        tell=shown.append,
         goes_on=lambda: next(frames, None) is not None,
     )
     (view,) = seen
-    assert told == expected
+    assert shown == expected
     assert expected
     assert view.is_closed
     lowest = min(range(60), key=lambda frame: view.heights[frame])

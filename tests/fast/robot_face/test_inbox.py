@@ -19,14 +19,14 @@ class Topic:
     """A subscription whose messages a test sets, and the messages and reports that result."""
 
     def __init__(self, kind, **limits):
-        self.waiting, self.heard, self.reports = [], [], []
+        self.waiting, self.received, self.reports = [], [], []
         subscription = SimpleNamespace(
-            topic_name="/robot/topic", msg_type=kind, callback=self.heard.append, handle=self
+            topic_name="/robot/topic", msg_type=kind, callback=self.received.append, handle=self
         )
         self.inbox = Inbox(subscription, lambda *report: self.reports.append(report), **limits)
 
     def take_message(self, kind, raw):
-        assert raw, "bytes are asked for"
+        assert raw, "the inbox must request bytes"
         return (self.waiting.pop(0), None) if self.waiting else None
 
 
@@ -46,7 +46,7 @@ def test_a_valid_message_reaches_the_callback():
     command = Twist()
     command.linear.x = 0.2
     topic.inbox.process(serialize_message(command))
-    assert topic.heard == [command]
+    assert topic.received == [command]
     topic.inbox.report()
     assert topic.reports == []
 
@@ -56,7 +56,7 @@ def test_a_message_that_ends_too_soon_is_refused(size):
     topic = Topic(Twist)
     topic.inbox.process(serialize_message(Twist())[:size])
     topic.inbox.report()
-    assert topic.heard == []
+    assert topic.received == []
     assert topic.reports == [("/robot/topic", 1, size, 64, "malformed")]
 
 
@@ -64,7 +64,7 @@ def test_a_message_of_fixed_length_that_is_longer_is_refused():
     topic = Topic(Twist)
     topic.inbox.process(serialize_message(Twist()) + bytes(1000))
     topic.inbox.report()
-    assert topic.heard == []
+    assert topic.received == []
     assert topic.reports == [("/robot/topic", 1, 1052, 64, "more than 64 bytes")]
 
 
@@ -72,7 +72,7 @@ def test_a_message_of_fixed_length_that_is_longer_is_refused():
 def test_every_trajectory_within_the_limit_of_points_reaches_the_callback(points):
     topic = trajectories()
     topic.inbox.process(trajectory(points, full=True))
-    assert [len(message.points) for message in topic.heard] == [points]
+    assert [len(message.points) for message in topic.received] == [points]
 
 
 def test_a_trajectory_with_more_points_is_refused_however_short_they_are():
@@ -80,7 +80,7 @@ def test_a_trajectory_with_more_points_is_refused_however_short_they_are():
     topic.inbox.process(trajectory(MOST_POINTS + 1, joints=()))
     topic.inbox.process(trajectory(30_000))
     topic.inbox.report()
-    assert topic.heard == []
+    assert topic.received == []
     assert [(count, reason) for _, count, *_, reason in topic.reports] == [
         (1, "more than 500 points"),
         (1, f"more than {MOST_BYTES} bytes"),
@@ -91,7 +91,7 @@ def test_a_trajectory_with_thousands_of_joints_is_refused():
     topic = trajectories()
     topic.inbox.process(trajectory(0, joints=[""] * 20_000))
     topic.inbox.report()
-    assert topic.heard == []
+    assert topic.received == []
     assert topic.reports[0][-1] == "more than 64 joints"
 
 
@@ -113,7 +113,7 @@ def test_a_flood_is_limited_to_a_rate_and_the_newest_messages_wait():
         topic.waiting += [serialize_message(Twist())] * 30
         topic.waiting = topic.waiting[-10:]  # as a history of depth 10 keeps them
         topic.inbox.process_arrived(0.02 * tick)
-    assert len(topic.heard) == pytest.approx(3 * MESSAGES_A_SECOND, abs=5)  # 1 s worth at first, then 2 s
+    assert len(topic.received) == pytest.approx(3 * MESSAGES_A_SECOND, abs=5)  # 1 s worth at first, then 2 s
     topic.inbox.report()
     assert topic.reports[-1][1] > 50
     assert {reason for *_, reason in topic.reports} == {FLOOD}
@@ -125,7 +125,7 @@ def test_a_fast_publisher_does_not_count_as_a_flood():
     for tick in range(500):
         topic.waiting += [serialize_message(Twist())] * 2  # 100 Hz
         topic.inbox.process_arrived(0.02 * tick)
-    assert len(topic.heard) == 1000
+    assert len(topic.received) == 1000
     assert topic.reports == []
 
 
@@ -140,7 +140,7 @@ def test_too_large_messages_are_taken_at_a_limited_rate():
     assert taken <= 12
     topic.waiting = [trajectory(5)]
     topic.inbox.process_arrived(12.0)
-    assert len(topic.heard) == 1, "a sound one is heard after it"
+    assert len(topic.received) == 1, "a sound one is received after it"
 
 
 def test_messages_are_processed_after_time_has_gone_back():
@@ -148,7 +148,7 @@ def test_messages_are_processed_after_time_has_gone_back():
     topic.inbox.process_arrived(100.0)
     topic.waiting = [serialize_message(Twist())]
     topic.inbox.process_arrived(0.0)
-    assert len(topic.heard) == 1
+    assert len(topic.received) == 1
 
 
 def test_a_refused_message_is_written_to_the_ground_truth(tmp_path):

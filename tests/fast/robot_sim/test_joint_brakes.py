@@ -87,8 +87,8 @@ def test_the_requested_joints_are_reported_with_each_state_of_the_robot() -> Non
     truth.robot(humanoid, 0.0)
     os.close(write_end)
     with os.fdopen(read_end) as pipe:
-        told = [json.loads(line) for line in pipe]
-    assert [line["kind"] for line in told] == ["robot_truth", "joints_truth", "robot_truth", "joints_truth"]
+        events = [json.loads(line) for line in pipe]
+    assert [line["kind"] for line in events] == ["robot_truth", "joints_truth", "robot_truth", "joints_truth"]
     there = {joint: place(humanoid, joint) for joint in (HELD, "r_wrist_roll")}
-    assert told[-1]["positions"] == pytest.approx(there, abs=1e-4)
-    assert set(told[-1]["velocities"]) == {HELD, "r_wrist_roll"}
+    assert events[-1]["positions"] == pytest.approx(there, abs=1e-4)
+    assert set(events[-1]["velocities"]) == {HELD, "r_wrist_roll"}

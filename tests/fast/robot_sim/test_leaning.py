@@ -26,9 +26,9 @@ def loads(humanoid: Humanoid) -> list[dict]:
     truth.robot(humanoid, 0.0)
     os.close(write_end)
     with os.fdopen(read_end) as pipe:
-        told = [json.loads(line) for line in pipe]
-    assert [line["kind"] for line in told] == ["robot_truth", "feet_truth", "robot_truth", "feet_truth"]
-    return [line for line in told if line["kind"] == "feet_truth"]
+        events = [json.loads(line) for line in pipe]
+    assert [line["kind"] for line in events] == ["robot_truth", "feet_truth", "robot_truth", "feet_truth"]
+    return [line for line in events if line["kind"] == "feet_truth"]
 
 
 def test_the_requested_feet_are_reported_with_each_state_of_the_robot() -> None:

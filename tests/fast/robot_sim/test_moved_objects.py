@@ -58,12 +58,12 @@ def test_hand_and_object_are_reported_with_each_state_of_the_robot() -> None:
     truth.robot(humanoid, 0.0)
     os.close(write_end)
     with os.fdopen(read_end) as pipe:
-        told = [json.loads(line) for line in pipe]
-    assert [line["kind"] for line in told] == [
+        events = [json.loads(line) for line in pipe]
+    assert [line["kind"] for line in events] == [
         *("hand_truth", "object_truth"),
         *("robot_truth", "hand_truth", "object_truth"),
     ]
-    hand, cup = told[-2:]
+    hand, cup = events[-2:]
     assert hand["side"] == "r"
     assert hand["position"][1] < -0.15
     assert hand["opening"] == pytest.approx(0.0, abs=0.01)

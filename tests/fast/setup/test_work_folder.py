@@ -69,7 +69,7 @@ def test_in_a_clone_of_ones_own_notebooks_stay_where_they_are(monkeypatch: pytes
 def test_progress_is_kept_and_read_in_the_work_folder(tmp_path: Path) -> None:
     (tmp_path / "exercises/patterns").mkdir(parents=True)
     code = (
-        "from ros_runtime.self_checks import keep_check; keep_check('patterns', 3, 4)\n"
+        "from ros_runtime.self_checks import store_check; store_check('patterns', 3, 4)\n"
         "from lab.learning.contents import CHAPTERS; print(CHAPTERS)"
     )
     printed = subprocess.run(

@@ -33,11 +33,13 @@ def test_a_chapter_has_its_outputs_and_the_last_picture_of_the_live_view(tmp_pat
         "prediction_1.reply()",
         "lab.stop_everything()",
     )
-    told = []
-    executed = execute(tmp_path / "01_a.ipynb", tmp_path, on_cell=lambda cell, of: told.append((cell, of)))
+    progress = []
+    executed = execute(
+        tmp_path / "01_a.ipynb", tmp_path, on_cell=lambda cell, of: progress.append((cell, of))
+    )
     assert executed.left_behind == []
     assert "STANDING" in executed.text("cell-3")
-    assert told[-1] == (7, 7)  # with a cell that makes the prediction
+    assert progress[-1] == (7, 7)  # with a cell that makes the prediction
 
     copy = reader_copy(notebook, executed.notebook, Links(PurePosixPath("chapters/01_a.ipynb"), ()))
     outputs = {cell.id: cell.outputs for cell in copy.cells if cell.cell_type == "code"}

@@ -107,9 +107,11 @@ def test_the_button_walks_and_the_last_feedback_comes_from_where_the_robot_stand
 
 
 def test_a_fall_is_seen_by_nobody_until_the_loop_looks(chapter: Executed) -> None:
-    told = re.match(r"FALLEN \| EXECUTING \| ([\d.]+) m ([\d.]+) m ([\d.]+) m\n", chapter.text("fall-break"))
-    assert told, chapter.text("fall-break")
-    left = [float(distance) for distance in told.groups()]
+    printed = re.match(
+        r"FALLEN \| EXECUTING \| ([\d.]+) m ([\d.]+) m ([\d.]+) m\n", chapter.text("fall-break")
+    )
+    assert printed, chapter.text("fall-break")
+    left = [float(distance) for distance in printed.groups()]
     assert max(left) - min(left) < 0.05  # the body may still be rolling
     assert "ABORTED (error_code 1, error_msg 'the robot fell on the way'" in chapter.text("whole-run")
     assert in_order(chapter.html("whole-draw"), "SENT at", "ACCEPTED at", "EXECUTING at", "ABORTED at")

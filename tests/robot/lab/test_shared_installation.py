@@ -92,11 +92,11 @@ def test_each_student_walks_a_robot_and_discovers_no_other(homes: dict[int, Path
         )
     try:
         for step in ("up", "walked"):
-            told = {}
+            lines = {}
             for user, session in sessions.items():
-                told[user] = line_with(session, "robots" if step == "walked" else "up")
+                lines[user] = line_with(session, "robots" if step == "walked" else "up")
                 if step == "walked":
-                    assert told[user] == ["robots", "1", "notebooks", "1"]
+                    assert lines[user] == ["robots", "1", "notebooks", "1"]
                     assert STUDENTS[user] * float(line_with(session, "x")[1]) > 0.2
             for session in sessions.values():
                 assert session.stdin
