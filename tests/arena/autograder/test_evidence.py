@@ -25,7 +25,7 @@ from autograder.engine.judging import judge
 from autograder.engine.verdict import CheckVerdict
 
 EXERCISES = exercise_names()
-NEEDED = "needed.json"  # beside an exercise's transcripts; record_transcripts.py writes it
+NEEDED = "needed.json"  # in the folder of an exercise's transcripts, written by record_transcripts.py
 # These events are frequent: the ends of a sequence of them are enough.
 RUNS_OF = (
     *("joints_published", "imu_published", "battery_published", "robot_peers", "woken_late"),
@@ -37,12 +37,10 @@ ANSWERS = (
     *("service_answered", "goal_answered", "cancel_answered", "result_received", "reply_sent"),
     "arm_reported",
 )
-MOST_PLACES = (
-    40  # of a transcript that one check is tried at: the others of its checks are tried at other ones
-)
+MOST_PLACES = 40  # events of a transcript that are changed for one check; other checks get other events
 DELAYS = (0.4, 2.0, 30.0)  # s, taken in turn
 # Events that a program causes by itself. Without one of them a record is that of another program, maybe a correct one.
-OWN_DOING = (
+PROGRAM_EVENTS = (
     *("node_output", "node_exited", "node_killed", "request_received"),
     *("feedback_received", "status_seen"),
 )
@@ -217,7 +215,7 @@ def test_there_is_always_a_verdict_and_nothing_passes_that_failed(exercise, chan
 
 
 def own_doing(what):
-    return re.search(rf"where it leaves|(?:without|with)(?: any)? (?:{'|'.join(OWN_DOING)})\b", what)
+    return re.search(rf"where it leaves|(?:without|with)(?: any)? (?:{'|'.join(PROGRAM_EVENTS)})\b", what)
 
 
 @pytest.mark.parametrize("exercise", EXERCISES)

@@ -31,7 +31,7 @@ HOSTILE = (
 AT_FIRST = (
     "server_appears",
     "answers_with_the_last_message",
-)  # checks that tell whether the next one is unharmed
+)  # checks that show whether the next submission is unaffected
 
 
 def caught_only(known: KnownSubmission) -> Exercise:

@@ -173,7 +173,7 @@ def test_a_part_that_is_graded_again_leaves_the_rest_and_without_isolation_all_i
     assert points(out, "patterns") == {"anna": full, "bert": 0}
     rows = class_rows(out)
 
-    for student in ("anna", "bert"):  # what of this is not asked for is not graded
+    for student in ("anna", "bert"):  # what is not requested is not graded
         (submitted / student / "patterns.py").write_text(RIGHT if student == "bert" else "print()")
         (submitted / student / NOTEBOOK).write_bytes(b"still not a notebook")
     part = ("--student", "bert", "--exercise", "patterns")
@@ -239,4 +239,4 @@ def test_shards_are_merged_into_one_gradebook_and_an_absent_one_is_named(tmp_pat
     assert [len(record["submissions"]) for record in records] == [2, 1, 3]
     assert "missing: shard 2/2 is not among the folders" in partly.stdout
     assert "bert's battery_service has no grade" in partly.stdout
-    assert course("merge", *shards, shards[0], "--out", out).returncode == 0  # the same folder twice is one
+    assert course("merge", *shards, shards[0], "--out", out).returncode == 0  # a duplicate counts once

@@ -88,7 +88,7 @@ def until(process: subprocess.Popen[str], happened: Callable[[], Any]) -> None:
     while not happened():
         assert process.poll() is None, process.communicate()[0]
         assert time.monotonic() < end
-        time.sleep(0.05)  # between two looks
+        time.sleep(0.05)  # between two polls
 
 
 def hand_in(folder: Path, student: str, text: str) -> None:

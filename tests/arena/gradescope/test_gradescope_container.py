@@ -170,7 +170,7 @@ def test_a_program_that_attacks_gets_no_points_and_reaches_nothing(autograder: P
     assert outputs.count("refused:") >= 12
     assert "WORKED" not in outputs
     names = [_content(path) for path in Path("/proc").glob("[0-9]*/comm")]
-    assert f"{MARK}\n".encode() not in names  # what it left behind has ended with the grading
+    assert f"{MARK}\n".encode() not in names  # processes that it left behind have ended with the grading
 
 
 def _content(path: Path) -> bytes:

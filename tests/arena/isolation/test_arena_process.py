@@ -81,7 +81,7 @@ def test_an_arena_that_takes_too_much_memory_is_ended_and_says_so(kind: Kind) ->
 
 
 def test_memory_within_the_limit_is_measured_and_allowed(kind: Kind) -> None:
-    code = "import time; hog = bytearray(b'x') * (80 << 20); time.sleep(0.5)"  # ten looks long
+    code = "import time; hog = bytearray(b'x') * (80 << 20); time.sleep(0.5)"  # for ten samples
     report = run_python(code, kind, ArenaLimits(30, memory_mib=400))
     assert (report.ended, report.exit_code) == (Ended.EXIT, 0)
     assert 80 < report.peak_memory_mib < 400

@@ -43,7 +43,7 @@ print(json.dumps([len(pids), os.getpid(), os.getppid(), os.listdir("/proc/1")]))
 """
     count, pid, parent, known = run_student(Student(code), namespaces).json()
     assert (count, pid, parent) == (2, 2, 1)
-    assert known == []  # neither its command line, which has paths of the host, nor its memory
+    assert known == []  # neither its command line, which contains paths of the host, nor its memory
 
 
 def test_memory_outside_of_the_measured_size_cannot_be_allocated(namespaces: Kind) -> None:

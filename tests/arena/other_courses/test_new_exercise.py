@@ -26,7 +26,7 @@ def test_a_new_exercise_passes_its_own_audit(tmp_path, kind):
     assert "./course audit first_steps" in made.stdout
     audited = course("audit", "first_steps", "--course", tasks)
     assert audited.returncode == 0, audited.stdout + audited.stderr
-    assert "named by 0" not in audited.stdout  # every check has a submission that it must catch
+    assert "named by 0" not in audited.stdout  # every check has a submission that it must fail
     assert course("release", "--check", "--course", tasks).returncode == 0
     starter = (tmp_path / "exercises/first_steps/first_steps.ipynb").read_text()
     assert "# YOUR CODE HERE" in starter

@@ -44,7 +44,7 @@ def test_a_graph_that_cannot_be_read_is_empty_and_recorded_once(log: ArenaLog) -
     graph.inspect()
     reasons = [event.reason for event in log.all(ev.GraphFlooded)]
     assert "UnicodeDecodeError" in reasons[0]
-    assert len(reasons) == 2  # the retry has failed, too
+    assert len(reasons) == 2  # the retry failed, too
     assert len(reasons[0]) < 300
 
 

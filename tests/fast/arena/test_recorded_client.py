@@ -38,7 +38,7 @@ class FakeEndpoint:
 
     def __init__(self) -> None:
         self.futures: list[Future] = []
-        self.take: Any = None  # of a subscription
+        self.take: Any = None  # the callback of a subscription
 
     def call_async(self, _: Any) -> Future:
         self.futures.append(Future())

@@ -22,7 +22,7 @@ from autograder.engine.exercise import exercise_names, load_exercise
 from ros_runtime.recorded_client.conversation import Conversation
 
 SEEDS = int(os.environ.get("DRAWN_SEEDS", "25"))
-APART = 0.08  # m between where a cup stands and where it shall stand, so that a place can be told
+APART = 0.08  # m between a cup's position and its target, so that the two can be distinguished
 NUMBER = re.compile(r"-?\d+(\.\d+)?")  # an argument of a program
 CHARGES, SECONDS = (0.0, 1.0), (0.0, 70.0)
 BOUNDS = {

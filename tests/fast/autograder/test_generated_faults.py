@@ -204,7 +204,7 @@ def test_names_do_not_change_when_other_lines_are_edited(tmp_path):
     assert before <= {mutant.name for mutant in mutants(tmp_path, edited)}
 
 
-FEW = {"interfaces": 0, "patterns": 0}  # definitions are no programs; answers are words
+FEW = {"interfaces": 0, "patterns": 0}  # definitions are not programs; answers are words
 
 
 @pytest.mark.parametrize("name", exercise_names())

@@ -64,7 +64,7 @@ def test_a_failure_points_to_the_lesson_of_the_obligation_unless_its_check_names
         with pytest.raises(Failure) as failed:
             check_of([whole, taught], on=ASK, see=see).run([run_of(ASK, said="bad")])
         assert failed.value.see == expected
-    assert check_of([whole, taught], on=ASK).see == whole.see  # where none of them fails alone
+    assert check_of([whole, taught], on=ASK).see == whole.see  # if none of them fails alone
 
 
 def test_its_id_is_the_name_of_its_variable():
@@ -80,7 +80,7 @@ def test_a_submission_for_which_no_obligation_applies_fails(monkeypatch):
     assert grade.checks[0].expected == "an answer that shows this: It prints something good"
     assert (
         len(ran) == grading.MOST_ATTEMPTS["error"]
-    )  # each on a slower clock, as the machine may be to blame
+    )  # each at a lower scale, because the machine may be the cause
 
 
 def test_an_obligation_that_applies_on_a_slower_clock_is_enough(monkeypatch):

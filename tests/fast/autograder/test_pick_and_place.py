@@ -164,7 +164,7 @@ def test_a_correct_fetch_passes(check: str) -> None:
     ],
 )
 def test_a_faulty_fetch_fails_with_its_next_step(check: str, change: dict, words: str) -> None:
-    if not words:  # pushed along the table, which another check forbids
+    if not words:  # the cup was pushed along the table, which another check forbids
         CHECKS[check].run([fetched(**change)])
         return
     assert words in failure_of(CHECKS[check].run, [fetched(**change)]).help

@@ -58,7 +58,7 @@ def test_a_job_that_kills_its_worker_is_not_graded_and_takes_no_other_with_it(tm
     assert [student for student, _, _ in found] == students
     assert [status for _, status, _ in found] == ["not graded", *["graded"] * 4]
     assert "lost twice" in found[0][2]
-    assert (tmp_path / "always").read_text() in ("x", "xx")  # a pool may break before it has begun with a job
+    assert (tmp_path / "always").read_text() in ("x", "xx")  # a pool may break before it has started the job
     assert (tmp_path / "once").read_text() == "xx"
 
 

@@ -54,7 +54,7 @@ def test_ctrl_c_removes_queued_jobs_and_leaves_the_cluster_running(tmp_path: Pat
             while not list(tmp_path.glob("*.begun")):
                 assert grader.poll() is None, grader.communicate()[0]
             grader.send_signal(signal.SIGINT)
-            said, _ = grader.communicate(timeout=60)  # the job that runs has not ended yet
+            said, _ = grader.communicate(timeout=60)  # the running job has not ended yet
         (tmp_path / "go").touch()
         assert grader.returncode == 1, said
         assert "Add --resume" in said

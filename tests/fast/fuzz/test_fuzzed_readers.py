@@ -23,7 +23,7 @@ from fuzz.fuzzer import LONG, SUITE, Fuzzer
 from fuzz.readers import records
 from fuzz.readers.all import CHANNELS, READERS
 
-IN_ARENAS = ("answers-judged",)  # it reads all recorded runs, which takes seconds: tests/arena/fuzz
+IN_ARENAS = ("answers-judged",)  # reads all recorded runs, which takes seconds; so it is in tests/arena/fuzz
 
 
 @pytest.mark.parametrize("name", [name for name in READERS if name not in IN_ARENAS])

@@ -234,7 +234,7 @@ def test_a_students_text_is_escaped(tmp_path):
     )
     broken = grade("bert", reason=f"{MARKUP}\n{MARKUP}")
     page = read(pages_of(tmp_path, grade(HOSTILE, shouting), broken, left_out=[MARKUP]))
-    assert words(page).count(MARKUP) >= 5  # bert's reason twice, the folder left aside, and HOSTILE's name
+    assert words(page).count(MARKUP) >= 5  # bert's reason twice, the ignored folder, and HOSTILE's name
     for top in BOTH:
         text = words(read(tmp_path / top / HOSTILE / "walk_to.html"))
         assert text.count(MARKUP) >= 4

@@ -103,5 +103,6 @@ def spin_as_a_sound_node_does(executor):
 EMPTY = Empty()
 
 if __name__ == "__main__":
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where the tests run in the background
+    # SIGINT is ignored if the tests run in the background.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     globals()[sys.argv[1]]()

@@ -39,7 +39,7 @@ def test_a_chapter_has_its_outputs_and_the_last_picture_of_the_live_view(tmp_pat
     )
     assert executed.left_behind == []
     assert "STANDING" in executed.text("cell-3")
-    assert progress[-1] == (7, 7)  # with a cell that makes the prediction
+    assert progress[-1] == (7, 7)  # including a cell that makes the prediction
 
     copy = reader_copy(notebook, executed.notebook, Links(PurePosixPath("chapters/01_a.ipynb"), ()))
     outputs = {cell.id: cell.outputs for cell in copy.cells if cell.cell_type == "code"}

@@ -56,7 +56,7 @@ def test_a_success_in_mid_step_is_false_and_one_after_settling_is_true(chapter: 
     touched = chapter.text("touch-run")
     assert "SUCCEEDED, and the robot is WALKING" in touched
     claimed, stands = claimed_and_stands(touched)
-    assert 0.95 < claimed < 1.25  # a loop that comes late sees the goal late
+    assert 0.95 < claimed < 1.25  # a delayed loop detects the goal late
     assert stands - claimed > 0.04
     settled = chapter.text("settle-run")
     assert "SUCCEEDED, and the robot is STANDING" in settled
@@ -112,7 +112,7 @@ def test_a_fall_is_seen_by_nobody_until_the_loop_looks(chapter: Executed) -> Non
     )
     assert printed, chapter.text("fall-break")
     left = [float(distance) for distance in printed.groups()]
-    assert max(left) - min(left) < 0.05  # the body may still be rolling
+    assert max(left) - min(left) < 0.05  # the body may still be moving
     assert "ABORTED (error_code 1, error_msg 'the robot fell on the way'" in chapter.text("whole-run")
     assert in_order(chapter.html("whole-draw"), "SENT at", "ACCEPTED at", "EXECUTING at", "ABORTED at")
 

@@ -48,7 +48,7 @@ def test_a_forked_robot_publishes_executes_commands_and_ends_at_sigterm():
             assert any(record["kind"] == "robot_commanded" for record in records)
             assert not next(r for r in records if r["kind"] == "robot_truth")["motors_enabled"]
             os.kill(robot, signal.SIGTERM)
-            for _ in records:  # to the end of the pipe
+            for _ in records:  # read to the end of the pipe
                 pass
         assert parent.wait(TIMEOUT) == 7, "what comes after serve_robot is reached"
     os.close(control_write)
