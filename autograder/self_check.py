@@ -20,7 +20,7 @@ from autograder.isolation.availability import available_isolation
 from autograder.recording.kept import Recordings, keep
 from autograder.report.running import RunningLine
 from autograder.report.table import grade_table, print_beginning, print_retry, print_verdict
-from ros_runtime.self_checks import keep_check
+from ros_runtime.self_checks import store_check
 
 if TYPE_CHECKING:
     from autograder.recording.recorder import Recorder
@@ -80,7 +80,7 @@ def check_and_keep(
     result = check_with_progress(console, path, exercise, jobs=jobs, arenas=arenas, recordings=recordings)
     if result.status == "graded":
         passed = sum(check.status == "passed" for check in result.checks)
-        keep_check(exercise, passed, len(result.checks), result.program)
+        store_check(exercise, passed, len(result.checks), result.program)
     return result
 
 

@@ -7,9 +7,9 @@ import errno
 import typer
 from rich.console import Console
 
-from ros_runtime.course_error import COULD_NOT, UNUSABLE
+from ros_runtime.course_error import COMMAND_FAILED, UNUSABLE
 
-__all__ = ["COULD_NOT", "NOT_GRADED", "UNUSABLE", "batch_status", "error_exit", "user_message"]
+__all__ = ["COMMAND_FAILED", "NOT_GRADED", "UNUSABLE", "batch_status", "error_exit", "user_message"]
 
 NOT_GRADED = 3  # the grader could not judge a submission
 FULL_DISK = (
@@ -32,7 +32,7 @@ def batch_status(*, not_graded: int, complete: bool) -> int:
     """Return a batch's exit status: 3 if a submission is not graded, else 1 if the batch is incomplete, else 0."""
     if not_graded:
         return NOT_GRADED
-    return 0 if complete else COULD_NOT
+    return 0 if complete else COMMAND_FAILED
 
 
 def user_message(error: BaseException) -> str:

@@ -1,4 +1,4 @@
-"""The battery: charge, voltage and current from the work of motors and electronics."""
+"""The battery: charge, voltage and current, computed from the power of motors and electronics."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ class BatteryParameters:
     empty_voltage: float = 25.6  # V, open circuit
     resistance: float = 0.05  # Ω
     idle_power: float = 18.0  # W, computers and sensors
-    motor_loss: float = 0.025  # W/(N·m)², heat in a windings' resistance
+    motor_loss: float = 0.025  # W/(N·m)², heat in the windings' resistance
 
     @property
     def design_charge(self) -> float:
-        """What a full pack holds, A·h."""
+        """The charge of a full pack, A·h."""
         return 2 * self.capacity / (self.full_voltage + self.empty_voltage)
 
 
@@ -34,7 +34,7 @@ class Battery:
     Attributes:
         percentage: charge, 0 to 1.
         pack: the pack's serial number, from 1.
-        energy_used: since it was made, J.
+        energy_used: J, since this object was made.
     """
 
     def __init__(self) -> None:
@@ -48,8 +48,7 @@ class Battery:
     def current(self) -> float:
         """Current in A, negative because the pack only discharges (sign as in sensor_msgs/BatteryState).
 
-        The current at which open-circuit voltage less the drop in the pack's resistance gives the power
-        drawn.
+        The discharge current I solves: power drawn = (open-circuit voltage - resistance · I) · I.
         """
         voltage, resistance = self._open_circuit_voltage(), self.parameters.resistance
         return -(voltage - math.sqrt(voltage**2 - 4 * resistance * self._power)) / (2 * resistance)
@@ -76,9 +75,9 @@ class Battery:
         self.pack += 1
 
     def drain(self, torque: np.ndarray, velocity: np.ndarray, dt: float) -> None:
-        """Discharge by what motors and electronics draw in one timestep.
+        """Discharge by the energy that motors and electronics draw in one timestep.
 
-        A motor draws its mechanical power while it drives (what it brakes is not recovered) and the heat of
+        A motor draws its mechanical power while it drives (braking recovers nothing), and the heat of
         its windings, I²R, which is proportional to the torque squared.
 
         Args:

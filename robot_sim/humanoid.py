@@ -1,4 +1,4 @@
-"""The whole robot without ROS."""
+"""The simulated robot, without ROS."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ from robot_sim.walking.walker_parameters import WalkerParameters
 from robot_sim.walking.walking_limits import WalkingLimits, walkable_velocity
 from ros_runtime.angles import yaw_of
 
-# Below either of them it has fallen.
+# The robot has fallen if it is below one of these.
 FALLEN_HEIGHT = 0.38  # m, of the pelvis above the origin
 FALLEN_UP = 0.6  # z component of the torso's up-vector: 1 upright, 0 lying
 
@@ -65,10 +65,10 @@ class Humanoid:
         model, data: of MuJoCo; the pelvis is base_link, the world is odom.
         battery: charge, voltage, current.
         hands: the grippers by side.
-        feet: the sensors of what the feet carry, by side.
+        feet: the force-torque sensors of the feet, by side.
         may_rest: while the robot stands still without a command, only time and battery are simulated, not the physics;
             such a step takes a fiftieth of the time.
-        motors_enabled: torque is on. False after `set_motor_power(False)`, after a fall and at zero charge.
+        motors_enabled: whether torque is on. False after `set_motor_power(False)`, after a fall and at zero charge.
     """
 
     def __init__(
@@ -99,7 +99,7 @@ class Humanoid:
     def reset(self, x: float = 0.0, y: float = 0.0, yaw: float = 0.0, *, height: float | None = None) -> None:
         """Stand at rest at (x, y) m, heading `yaw` rad, odom frame: time 0, battery full, motors on.
 
-        `height` (m, of the pelvis, 0.45 to 0.60) less than the stance's puts it into a crouch.
+        With a `height` (m, of the pelvis, 0.45 to 0.60) below that of the stance it begins in a crouch.
         """
         self._set_actuation(True)
         size = self._parameters.dimensions
@@ -118,7 +118,7 @@ class Humanoid:
         self._fallen = False
 
     def _take_control(self) -> None:
-        """Begin to balance from the state the robot is in."""
+        """Start the controllers from the present state of the robot."""
         self._estimate = StateEstimate(self.model, self.data, self._imu) if self._estimates_state else None
         state = self._estimate.data if self._estimate else self.data
         self._walker = Walker(self.model, self.data, state, self._trunk, self._parameters)
@@ -157,7 +157,7 @@ class Humanoid:
 
     @property
     def may_rest(self) -> bool:
-        """Whether physics may be skipped while the robot only stands; setting this resumes it."""
+        """Whether physics may be skipped while the robot only stands; setting this resumes physics."""
         return self._rest.allowed
 
     @may_rest.setter
@@ -193,7 +193,7 @@ class Humanoid:
     # Commands
 
     def walk_velocity(self, vx: float, vy: float, wz: float) -> None:
-        """Walk at (m/s, m/s, rad/s) in base_link until told otherwise; (0, 0, 0) is `stop()`.
+        """Walk at (m/s, m/s, rad/s) in base_link until the next command; (0, 0, 0) is `stop()`.
 
         Each component is clamped to the walking limits. Ignored while the motors are off.
 
@@ -215,14 +215,14 @@ class Humanoid:
         self._follow(Goal(x, y, yaw))
 
     def stop(self) -> None:
-        """Come to a stand with the feet side by side, in a step or two."""
+        """Stop walking after one or two more steps, with the feet side by side."""
         self._follow(None)
 
     def set_motor_power(self, on: bool) -> None:
-        """Switch the torque of all motors; without it the robot goes limp and falls.
+        """Switch the torque of all motors on or off; without torque the robot collapses.
 
-        Switched on again before it has fallen it tries to stand. A fallen robot's motors stay off until
-        `reset()`, and so do those of a robot with an empty battery until that is charged.
+        If torque is switched on again before the robot has fallen, it tries to stand. After a fall the motors stay
+        off until `reset()`; with an empty battery they stay off until it is charged.
         """
         if on == self.motors_enabled or (on and (self._fallen or self.battery.is_empty)):
             return
@@ -244,16 +244,16 @@ class Humanoid:
         self._rest.wake()
 
     def hold_joint(self, joint: str, grip: float = GRIP) -> None:
-        """Hold a joint of waist, head or arm where it is, with at most `grip` (N·m), until `release_joint`.
+        """Hold a joint of waist, head or arm in its position, with at most `grip` (N·m), until `release_joint`.
 
         Raises:
-            ValueError: the joint is another one, or the grip is not positive.
+            ValueError: the joint is not in waist, head or arm, or the grip is not positive.
         """
         self._brakes.hold(joint, grip)
         self._rest.wake()
 
     def release_joint(self, joint: str) -> None:
-        """Let go of a joint."""
+        """Release a joint that is held."""
         self._brakes.release(joint)
         self._rest.wake()
 
@@ -279,9 +279,9 @@ class Humanoid:
         self._rest.wake()
 
     def move_body(self, rate: float) -> None:
-        """Crouch or rise at `rate` (m/s, upwards) until told otherwise; ignored while the motors are off.
+        """Crouch or rise at `rate` (m/s, upwards) until the next command; ignored while the motors are off.
 
-        The pelvis stays between 0.45 m and the 0.60 m of the stance. Told to walk, a crouching robot rises first.
+        The pelvis stays between 0.45 m and the 0.60 m of the stance. A crouching robot rises before it walks.
 
         Raises:
             ValueError: the rate is not finite.
@@ -292,10 +292,10 @@ class Humanoid:
                 self._rest.wake()
 
     def crouch_to(self, height: float) -> HeightChange:
-        """Bring the pelvis to `height` (m, 0.45 to 0.60 above the floor) in phases, each until measurements confirm it.
+        """Move the pelvis to `height` (m, 0.45 to 0.60 above the floor) in phases, which end by measurements.
 
-        The result tells the phase, the progress, and the reason of a failure: a fall, motors off, another command to
-        walk or to move the body, or no progress in time.
+        The returned object has the phase, the progress, and the reason of a failure: a fall, motors off, another
+        command to walk or to move the body, or a timeout.
 
         Raises:
             ValueError: the height is not finite.
@@ -307,7 +307,7 @@ class Humanoid:
         return change
 
     def stand_up(self) -> HeightChange:
-        """Rise from any crouch to the stance; as `crouch_to` otherwise."""
+        """Rise from any crouch to the stance; otherwise like `crouch_to`."""
         return self.crouch_to(self._parameters.dimensions.stance_height)
 
     @property
@@ -326,7 +326,7 @@ class Humanoid:
         self._rest.wake()
 
     def move_joints(self, trajectory: JointTrajectory) -> None:
-        """Move joints of waist, head and arms along a trajectory; it replaces an earlier one. Empty: hold.
+        """Move joints of waist, head and arms along a trajectory, which replaces an earlier one. Empty: hold.
 
         Ignored while the motors are off.
         """
@@ -335,7 +335,7 @@ class Humanoid:
             self._rest.wake()
 
     def open_hand(self, side: Side, opening: float) -> None:
-        """Bring the fingers of a side `opening` (m, 0 to 0.09) apart; ignored without motors.
+        """Move the fingers of a side `opening` (m, 0 to 0.09) apart; ignored while the motors are off.
 
         Raises:
             ValueError: the opening is not finite.
@@ -345,7 +345,7 @@ class Humanoid:
             self._rest.wake()
 
     def reach(self, side: Side, target: HandTarget) -> Reach:
-        """Bring the hand of a side to a target in the odom frame; `error()` tells how far it is.
+        """Move the hand of a side to a target in the odom frame; `error()` of the result is the distance to it.
 
         Raises:
             ValueError: the target is not finite.
@@ -424,7 +424,7 @@ class Humanoid:
 
     @property
     def gyro_bias(self) -> list[float]:
-        """The lasting error of the gyro, rad/s about x, y and z of imu_link; a reset draws it from the seed again."""
+        """The constant error of the gyro, rad/s about x, y, z of imu_link; `reset()` draws it from the seed again."""
         return self._imu.gyro_bias.tolist()
 
     @gyro_bias.setter
@@ -434,12 +434,12 @@ class Humanoid:
     # Helpers
 
     def _follow(self, command: Command) -> None:
-        """Walk, after rising from a crouch; stop at once."""
+        """Follow a command to walk, after rising from a crouch if needed, or a command to stop, at once."""
         if not self.motors_enabled:
             return
         if command is not None:
             self._rest.wake()
-            self._height.interrupt("it was told to walk")
+            self._height.interrupt("a command to walk came")
         if command is None or self._height.is_risen:
             self._pending = None
             self._walker.follow(command)

@@ -1,4 +1,4 @@
-"""Pushes: a force on a body for a while."""
+"""Pushes: forces on a body for a limited time."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Pusher:
 
     @property
     def is_idle(self) -> bool:
-        """Whether no push acts or is about to."""
+        """Whether no push acted in the latest step or acts in the next one."""
         return not self._pushes and not self._acts
 
     def apply(self) -> None:

@@ -36,7 +36,7 @@ class ObjectPose:
 
 @dataclass(frozen=True)
 class HandPose:
-    """Pose of the point between the pads of a hand in the odom frame; x along the fingers, y the way they open."""
+    """Pose of the point between a hand's pads in the odom frame: x along the fingers, y in their opening direction."""
 
     position: np.ndarray  # (3,) m
     quaternion: np.ndarray  # (4,) x, y, z, w
@@ -44,7 +44,7 @@ class HandPose:
 
 @dataclass(frozen=True)
 class Wrench:
-    """What acts on a foot, about its sole's centre: x ahead, y left, z up from the sole."""
+    """Force and torque on a foot, about its sole's centre: x ahead, y left, z up from the sole."""
 
     force: np.ndarray  # (3,) N
     torque: np.ndarray  # (3,) N·m

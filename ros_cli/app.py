@@ -1,6 +1,6 @@
 """The command line: `ros2 GROUP VERB …`, parsed as ros2cli does.
 
-Exit status, as of ros2cli: 0 done, 1 it could not, 2 unusable arguments or Ctrl-C.
+Exit statuses as of ros2cli: 0 the command succeeded, 1 it failed, 2 unusable arguments or Ctrl-C.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ robot or node was started last, unless ROS_DOMAIN_ID is set there."""
 
 
 def main(arguments: Sequence[str] | None = None, *, program: str = "ros2") -> int:
-    """Run a command, by the real ros2 where that is on the PATH, and return the exit status."""
+    """Run a command, with the real ros2 if that is on the PATH, and return the exit status."""
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     try:
         join_domain()
@@ -47,7 +47,7 @@ def main(arguments: Sequence[str] | None = None, *, program: str = "ros2") -> in
 
 
 def run(arguments: Sequence[str], program: str = "ros2") -> int:
-    """Run a command of ours and return the exit status."""
+    """Run a command of the course and return the exit status."""
     options = command_line(program).parse_args(arguments)
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(line_buffering=True)  # flush every line, also into a pipe
@@ -58,7 +58,7 @@ def run(arguments: Sequence[str], program: str = "ros2") -> int:
         return 1
     except KeyboardInterrupt:
         return signal.SIGINT
-    except BrokenPipeError:  # `… | head` has read enough
+    except BrokenPipeError:  # the reader has closed the pipe, as `… | head` does
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
 
@@ -78,7 +78,7 @@ def join_domain() -> None:
 
 
 def command_line(program: str) -> ArgumentParser:
-    """Return the parser of all groups and verbs; what it parses has `run`, to be called with it."""
+    """Return the parser of all groups and verbs; the parsed options have `run`, a function that takes the options."""
     look: dict[str, Any] = {"epilog": HELP, "formatter_class": RawDescriptionHelpFormatter}
     words = "The ros2 commands that the course uses, with the words and the output of ros2cli."
     parser = ArgumentParser(prog=program, description=words, **look)

@@ -1,4 +1,4 @@
-"""The node of a command: it discovers the graph, and a thread of its own spins it."""
+"""The node of a command: it discovers the graph, and a separate thread spins it."""
 
 from __future__ import annotations
 
@@ -24,11 +24,12 @@ from ros_runtime.notebook_domains import expected_nodes
 from ros_runtime.reachability import wait_until_reachable
 
 SPIN_TIME = 0.5  # s, as in ros2cli
-MISSING = 10  # times the spin time, while the wanted entity is missing: Fast DDS repeats a lost announcement after 3 s
-LONGEST_DISCOVERY = 16  # times the spin time, for a graph that never stops changing
-PERIOD = 0.02  # s between two queries of the graph, whose changes rclpy does not report
-OF_EVERY_NODE = "/rosout"  # a topic that every node publishes
-NOT_YET_KNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet
+# Multiple of the spin time to wait while the wanted entity is missing: Fast DDS repeats a lost announcement after 3 s.
+MISSING_FACTOR = 10
+DISCOVERY_LIMIT_FACTOR = 16  # multiple of the spin time; then discovery ends although the graph changes
+QUERY_PERIOD = 0.02  # s between two queries of the graph, because rclpy does not report its changes
+ROSOUT = "/rosout"  # a topic that every node publishes
+UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet
 
 
 class _Graph(NamedTuple):
@@ -40,7 +41,7 @@ class _Graph(NamedTuple):
 
 
 class CommandNode:
-    """A hidden node, spun by a thread, so that Ctrl-C ends every wait of the main thread at once.
+    """A hidden node. A separate thread spins it, so that Ctrl-C ends every wait of the main thread at once.
 
     Attributes:
         node: the rclpy node.
@@ -68,22 +69,22 @@ class CommandNode:
         self.node.destroy_node()
 
     def discover(self, is_there: Callable[[], bool] = lambda: True) -> None:
-        """Wait until the graph has not changed for the spin time, and every node in it has its name.
+        """Wait until the graph has not changed for the spin time, and the names of all its nodes are known.
 
         While there is no other node, or `is_there` is false, the wait is ten times as long.
         """
         changed = time.monotonic()
-        latest = changed + LONGEST_DISCOVERY * self._spin_time
+        latest = changed + DISCOVERY_LIMIT_FACTOR * self._spin_time
         seen = self._graph()
-        while time.monotonic() < min(changed + self._patience(seen, is_there), latest):
-            time.sleep(PERIOD)
+        while time.monotonic() < min(changed + self._quiet_time(seen, is_there), latest):
+            time.sleep(QUERY_PERIOD)
             graph = self._graph()
-            if graph != seen or NOT_YET_KNOWN in graph.nodes or self._has_nameless_endpoints():
+            if graph != seen or UNKNOWN_NODE in graph.nodes or self._has_nameless_endpoints():
                 seen, changed = graph, time.monotonic()
 
     def find(self, is_there: Callable[[], bool]) -> bool:
-        """Wait until `is_there` is true, at most MISSING times the spin time; return whether it is."""
-        return self.wait_until(is_there, MISSING * self._spin_time)
+        """Wait until `is_there` is true, at most MISSING_FACTOR times the spin time; return whether it is."""
+        return self.wait_until(is_there, MISSING_FACTOR * self._spin_time)
 
     def wait_until(self, condition: Callable[[], Any], timeout: float = float("inf")) -> bool:
         """Wait for a condition on the graph; return whether it came true within `timeout` s."""
@@ -91,15 +92,15 @@ class CommandNode:
         while not condition():
             if time.monotonic() >= deadline:
                 return False
-            time.sleep(PERIOD)
+            time.sleep(QUERY_PERIOD)
         return True
 
     def node_names(self, *, hidden: bool = False) -> list[str]:
-        """Return the full names of the nodes in the graph, one for each node, sorted."""
+        """Return the full names of the nodes in the graph, sorted; a name occurs once for each node that has it."""
         return sorted(
             full_name(name, namespace)
             for name, namespace in self.node.get_node_names_and_namespaces()
-            if name != NOT_YET_KNOWN and (hidden or not name.startswith("_"))
+            if name != UNKNOWN_NODE and (hidden or not name.startswith("_"))
         )
 
     def topics(self, *, hidden: bool = True) -> dict[str, list[str]]:
@@ -111,11 +112,11 @@ class CommandNode:
         return shown(self.node.get_service_names_and_types(), hidden)
 
     def now(self) -> Time:
-        """Return the time."""
+        """Return the present time."""
         return self.node.get_clock().now().to_msg()
 
     def wait_until_answering(self, server: str, timeout: float) -> bool:
-        """Wait until a node answers requests; it is discovered before that (see `ros_runtime.reachability`)."""
+        """Wait until a node answers requests, which may take longer than discovery (see `ros_runtime.reachability`)."""
         deadline = time.monotonic() + timeout
         return wait_until_reachable(self.node, server, lambda: time.monotonic() > deadline)
 
@@ -147,12 +148,12 @@ class CommandNode:
         return _Graph(nodes, list(self.topics()), list(self.services()))
 
     def _has_nameless_endpoints(self) -> bool:
-        """Return whether endpoints of a node are discovered but its name is not: they arrive separately."""
-        everybody = self.node.get_publishers_info_by_topic(OF_EVERY_NODE)
-        return any(endpoint.node_name == NOT_YET_KNOWN for endpoint in everybody)
+        """Return whether a node's endpoints are discovered but not its name, which is announced separately."""
+        endpoints = self.node.get_publishers_info_by_topic(ROSOUT)
+        return any(endpoint.node_name == UNKNOWN_NODE for endpoint in endpoints)
 
-    def _patience(self, graph: _Graph, is_there: Callable[[], bool]) -> float:
-        return self._spin_time * (1 if len(graph.nodes) > 1 and is_there() else MISSING)
+    def _quiet_time(self, graph: _Graph, is_there: Callable[[], bool]) -> float:
+        return self._spin_time * (1 if len(graph.nodes) > 1 and is_there() else MISSING_FACTOR)
 
     def _spin(self) -> None:
         try:
@@ -178,7 +179,7 @@ def absolute(name: str) -> str:
 
 
 def shown(names_and_types: list[tuple[str, list[str]]], hidden: bool) -> dict[str, list[str]]:
-    """Return names and types as a dict, sorted, those that begin with an underscore only if `hidden`."""
+    """Return names and types as a sorted dict; names that begin with an underscore are included only if `hidden`."""
     return {
         name: types
         for name, types in sorted(names_and_types)

@@ -7,7 +7,7 @@ from difflib import get_close_matches
 
 
 class CommandError(Exception):
-    """What was seen, what was expected and what to do next; printed on stderr, with exit status 1."""
+    """The message says what was seen, what was expected and what to do next; it goes to stderr, with exit status 1."""
 
 
 def unknown(kind: str, name: str, known: Iterable[str]) -> CommandError:
@@ -15,17 +15,17 @@ def unknown(kind: str, name: str, known: Iterable[str]) -> CommandError:
 
     Args:
         kind: "topic", "service", "action" or "node".
-        name: what was asked for.
-        known: the names there are.
+        name: the unknown name.
+        known: the names in the graph.
     """
-    advice = suggestion(name, known, f"`{kind} list` shows those there are")
+    advice = suggestion(name, known, f"`{kind} list` shows the known {kind}s")
     return CommandError(f"Unknown {kind} '{name}': {advice}")
 
 
 def suggestion(name: str, known: Iterable[str], otherwise: str) -> str:
-    """Ask whether a known name was meant: one with the same ending (/robot/odom for /odom), or with few other letters.
+    """Return a question that suggests a known name; `otherwise` if no name is similar.
 
-    `otherwise` is returned where no name looks alike.
+    A similar name has the same ending (/robot/odom for /odom) or differs in few letters.
     """
     names = sorted(known)
     end = "/" + name.rpartition("/")[2]

@@ -1,4 +1,4 @@
-"""Interfaces by the names that are typed on the command line."""
+"""Finds interfaces by the names that are typed on the command line."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ def interface_class(name: str, kind: str) -> Any:
         kind: "msg", "srv" or "action".
 
     Raises:
-        CommandError: there is none.
+        CommandError: there is no such interface.
     """
     full = full_type_name(name, kind)
     try:
         found = message_type(full)
     except ValueError as error:
         raise _invalid(kind, str(error)) from error
-    if full.split("/")[1] != kind:
-        raise _invalid(kind, f"{name} is no {KINDS[kind]}")
+    if (actual := full.split("/")[1]) != kind:
+        raise _invalid(kind, f"{name} is of kind {actual}, not {kind}")
     return found
 
 

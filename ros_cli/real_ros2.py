@@ -13,7 +13,7 @@ OURS = Path(__file__).with_name("bin")  # `course lab` puts it on the PATH
 
 
 def real_ros2() -> str | None:
-    """Return the path of the real `ros2`, or None; also None if rclpy comes from wheels, which it cannot use."""
+    """Return the path of the real `ros2`; None if there is none, or if rclpy comes from wheels, which it cannot use."""
     if uses_wheels():
         return None
     folders = os.environ.get("PATH", "").split(os.pathsep)
@@ -21,7 +21,7 @@ def real_ros2() -> str | None:
 
 
 def path_with_ros2(path: str) -> str:
-    """Return a PATH on which `ros2` is the course's command; it joins the lab's domain and may exec the real one.
+    """Return a PATH with the course's `ros2` command, which joins the lab's domain and may execute the real one.
 
     If an unpacking tool has dropped the command's executable bit, set it.
     """

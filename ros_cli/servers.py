@@ -1,4 +1,4 @@
-"""Waits before a request until the server has the right type and its node can answer.
+"""Waits, before a request is sent, until the server has the right type and its node can answer.
 
 Discovery is not simultaneous: a request is lost if the server's node has not discovered this client yet.
 """
@@ -14,7 +14,7 @@ from ros_cli.errors import CommandError
 
 SERVER_TIMEOUT = 2.0  # s; after that the request is sent anyway, since the node may only be busy
 
-ByNode = Callable[[str, str], "list[tuple[str, list[str]]]"]  # from a node's name and namespace
+ByNode = Callable[[str, str], "list[tuple[str, list[str]]]"]  # takes a node's name and namespace
 
 
 def wait_for_type(
@@ -29,22 +29,24 @@ def wait_for_type(
         wanted: the type of this client.
 
     Raises:
-        CommandError: the name exists with another type only, so the wait would never end.
+        CommandError: a server of this name has another type, so the wait would never end.
     """
 
     def is_ready_or_never() -> bool:
         others = [each for each in types() if each != wanted]
         if others and not is_ready():
-            raise CommandError(f"It has the type {', '.join(others)}, not {wanted}; give the type it has")
+            raise CommandError(
+                f"The server has the type {', '.join(others)}, not {wanted}; give the server's type"
+            )
         return is_ready()
 
     command.wait_until(is_ready_or_never)
 
 
 def nodes_with(command: CommandNode, name: str, by_node: ByNode) -> list[tuple[str, list[str]]]:
-    """Return the nodes that have a service, or an action's client or server, of this name, with its types.
+    """Return the nodes that have an endpoint of this name, such as a service or an action's client, with its types.
 
-    `by_node` returns the names and types of what one node has.
+    `by_node` returns the names and types of one node's endpoints of that kind.
     """
     found = []
     for node in command.node_names(hidden=True):
@@ -58,7 +60,7 @@ def nodes_with(command: CommandNode, name: str, by_node: ByNode) -> list[tuple[s
 
 
 def wait_for_node_of(command: CommandNode, server: str, by_node: ByNode) -> None:
-    """Wait until the node that has a service or an action's server answers."""
+    """Wait until the node of a service or an action server answers requests."""
     for node, _ in nodes_with(command, server, by_node):
         if f"{node}/list_parameters" in command.services():
             command.wait_until_answering(node, SERVER_TIMEOUT)

@@ -1,4 +1,4 @@
-"""How a verb is added to the command line."""
+"""Adds verbs and their common arguments to the command line."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def add_verb(verbs: Verbs, name: str, run: Run, summary: str) -> ArgumentParser:
 
 
 def add_graph_verb(verbs: Verbs, name: str, run: Run, summary: str) -> ArgumentParser:
-    """Add a verb that looks at the ROS graph first."""
+    """Add a verb that first discovers the ROS graph."""
     parser = add_verb(verbs, name, run, summary)
     parser.add_argument(
         "--spin-time",
@@ -36,9 +36,9 @@ def add_graph_verb(verbs: Verbs, name: str, run: Run, summary: str) -> ArgumentP
 def add_list_verb(
     verbs: Verbs, kind: str, names: Callable[[CommandNode, Namespace], Collection[str]]
 ) -> ArgumentParser:
-    """Add the verb that prints everything of a kind, such as "topic", a line each, or the number of them.
+    """Add the verb that prints all names of a kind, such as "topic", one on each line, or their number.
 
-    `names` is called when the graph is known; if it returns a mapping to types, --show-types prints them.
+    `names` is called after discovery. If it returns a mapping from names to types, --show-types prints the types.
     """
 
     def print_list(options: Namespace) -> None:
@@ -64,7 +64,7 @@ def add_flag(parser: ArgumentParser, *names: str, help: str) -> None:
 
 
 def add_values(parser: ArgumentParser, metavar: str, summary: str) -> None:
-    """Add the argument for a message's fields in YAML, or --stdin in its place; `given_values` returns them."""
+    """Add the argument for a message's fields in YAML, or --stdin instead of it; `given_values` returns the YAML."""
     group = parser.add_mutually_exclusive_group()
     group.add_argument(
         "values",
@@ -77,7 +77,7 @@ def add_values(parser: ArgumentParser, metavar: str, summary: str) -> None:
 
 
 def given_values(options: Namespace) -> str:
-    """Return the YAML that was typed, or that comes from standard input."""
+    """Return the YAML from the command line or from standard input."""
     return sys.stdin.read() if options.stdin else str(options.values)
 
 
@@ -87,7 +87,7 @@ def typed(name: str, types: Sequence[str]) -> str:
 
 
 def positive_float(text: str) -> float:
-    """Return a positive number for argparse."""
+    """Parse a positive number for argparse."""
     try:
         number = float(text)
     except ValueError:
@@ -98,14 +98,14 @@ def positive_float(text: str) -> float:
 
 
 def natural_number(text: str) -> int:
-    """Return a number of 0, 1, 2, … for argparse."""
+    """Parse a whole number (0, 1, 2, …) for argparse."""
     if not text.isdecimal():
-        raise ArgumentTypeError(f"{text!r} is not a number of 0, 1, 2, …")
+        raise ArgumentTypeError(f"{text!r} is not a whole number (0, 1, 2, …)")
     return int(text)
 
 
 def positive_int(text: str) -> int:
-    """Return a number of 1, 2, … for argparse."""
+    """Parse a positive whole number for argparse."""
     if (number := natural_number(text)) == 0:
         raise ArgumentTypeError("0 is not positive")
     return number

@@ -1,4 +1,4 @@
-"""Messages as YAML: what is typed on the command line, and what is printed."""
+"""Converts the YAML of the command line to messages, and messages to YAML for printing."""
 
 from __future__ import annotations
 
@@ -18,12 +18,13 @@ _ELEMENTS = re.compile(r"sequence<(.+?)(?:, \d+)?>|(.+)\[\d+\]")
 
 
 def message_from_yaml(message_type: Any, text: str, *, now: Time | None = None) -> Any:
-    """Return a message with the fields that are typed, such as '{linear: {x: 0.2}}'; others keep their defaults.
+    """Return a message with the fields in `text`, such as '{linear: {x: 0.2}}'; others keep their defaults.
 
-    The word "auto" stands for a header of the time `now`, and "now" for that time; without `now` it is 0.
+    The value "auto" of a header stands for one with the time `now`, and the value "now" of a time for `now`. The
+    default of `now` is 0.
 
     Raises:
-        CommandError: it is no YAML, there is no such field, or a value does not fit.
+        CommandError: the text is not YAML, there is no such field, or a value does not fit its field.
     """
     message = message_type()
     try:
@@ -48,13 +49,13 @@ def _mapping(text: str) -> dict[str, Any]:
     """Return the fields in a text.
 
     Raises:
-        CommandError: it holds something else.
+        CommandError: the text is not YAML, or holds something else.
     """
     try:
         values = yaml.safe_load(text)
     except yaml.YAMLError as error:
         raise CommandError(
-            f"{text!r} is no YAML: {error}\nExpected fields in braces, such as '{{x: 1.0}}', in quotes"
+            f"{text!r} is not YAML: {error}\nExpected fields in braces, such as '{{x: 1.0}}', in quotes"
         ) from error
     if values is None:
         return {}
@@ -82,7 +83,7 @@ def _no_such_field(message: Any, name: str) -> str:
 
 
 def _converted(name: str, value: Any, declared: str, now: Time) -> Any:
-    """Return a value of YAML as the field's type wants it: 1 for a float is 1.0, 5 for a string is '5'."""
+    """Convert a value of YAML to the type of its field: 1 becomes 1.0 for a float, 5 becomes '5' for a string."""
     elements = _ELEMENTS.fullmatch(declared)
     if elements and isinstance(value, list):
         element = elements[1] or elements[2]

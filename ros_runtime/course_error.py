@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-COULD_NOT, UNUSABLE = 1, 2  # exit statuses: the command failed; its arguments or files are unusable
+COMMAND_FAILED = 1  # exit status: the command failed
+UNUSABLE = 2  # exit status: the command's arguments or files are unusable
 
 
 class CourseError(Exception):

@@ -17,9 +17,9 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-# The middle of the names of their types.
+# The middle part of the type names of each pattern: sensor_msgs/msg/Image.
 KINDS: Mapping[str, str] = {"topic": "msg", "service": "srv", "action": "action"}
-WIRE = "wire"  # no ROS: a cable, a fieldbus
+WIRE = "wire"  # a link without ROS, such as a cable or a fieldbus
 PATTERNS = (*KINDS, WIRE)
 FACTS = ("qos", "rate", "failure", "safety")  # in addition to pattern and type, which are in the first line
 FIELDS = "fields"  # optional, for the fields of a type that the student defines
@@ -44,20 +44,20 @@ class Link:
         return f"{self.sender} -> {self.receiver}"
 
     def missing(self) -> list[str]:
-        """Return a sentence on each of the six facts that is missing or cannot be read."""
+        """Return a sentence about each of the six facts that is missing or cannot be read."""
         found = [self._about_pattern(), self._about_type()]
         wanted = [fact for fact in FACTS if not (fact == "qos" and self.pattern == WIRE)]
-        found += [f"{fact} is missing" for fact in wanted if not _says_something(self.facts.get(fact, ""))]
+        found += [f"{fact} is missing" for fact in wanted if not _has_words(self.facts.get(fact, ""))]
         return [sentence for sentence in found if sentence]
 
     def _about_pattern(self) -> str:
-        return (
-            "" if self.pattern in PATTERNS else f"pattern: {self.pattern!r} is none of {', '.join(PATTERNS)}"
-        )
+        if self.pattern in PATTERNS:
+            return ""
+        return f"pattern: expected one of {', '.join(PATTERNS)}, got {self.pattern!r}"
 
     def _about_type(self) -> str:
         if self.pattern not in KINDS:
-            return "" if _says_something(self.type) else "type is missing: say what runs through the wire"
+            return "" if _has_words(self.type) else "type is missing: say what the wire carries"
         kind = KINDS[self.pattern]
         named = _TYPE.fullmatch(self.type)
         if named and named["kind"] in (None, kind):
@@ -67,7 +67,7 @@ class Link:
 
 @dataclass(frozen=True)
 class Design:
-    """The links in their order, and a sentence for each line that could not be read."""
+    """The links in the order of the text, and a sentence for each line that could not be read."""
 
     links: tuple[Link, ...]
     problems: tuple[str, ...] = ()
@@ -133,11 +133,11 @@ class _Reader:
             )
             return
         if name in self._facts:
-            self.problems.append(f"line {number}: {self.links[-1]} has {name} already")
+            self.problems.append(f"line {number}: {self.links[-1]} already has {name}")
             return
         self._fact = name
         self._facts[name] = found["text"].strip()
 
 
-def _says_something(text: str) -> bool:
+def _has_words(text: str) -> bool:
     return any(character.isalnum() for character in text)

@@ -8,7 +8,7 @@ from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
-# Exported by a setup file of ROS, and needed by a process that starts with an empty environment.
+# The setup files of ROS export these; a process that starts with an empty environment needs them.
 _SETUP_FILE_VARIABLES = (
     "AMENT_PREFIX_PATH",
     "CMAKE_PREFIX_PATH",
@@ -44,10 +44,10 @@ def uses_wheels() -> bool:
 
 
 def _library_variables() -> dict[str, str]:
-    """Return where the loader finds ROS's libraries.
+    """Return the variables by which the loader finds ROS's libraries.
 
-    The wheels set LD_LIBRARY_PATH by starting the interpreter a second time (20 ms); they skip that when they
-    find their mark, so path and mark are set together. A sourced installation has set everything already.
+    The wheels set LD_LIBRARY_PATH by starting the interpreter a second time (20 ms). They skip that if
+    _ROS_WHEELS_BOOTSTRAP_COMPLETE is set, so both variables are set here. A sourced ROS has set everything already.
     """
     site_packages = _wheels_site_packages()
     if site_packages is None:
@@ -60,7 +60,7 @@ def _library_variables() -> dict[str, str]:
 
 @cache
 def _wheels_site_packages() -> Path | None:
-    """Return the directory the wheels are installed in, if the rclpy that gets imported is theirs."""
+    """Return the directory in which the wheels are installed; None if rclpy is imported from elsewhere."""
     rclpy, bootstrapper = find_spec("rclpy"), find_spec("ros_wheels_bootstrapper")
     if rclpy is None or rclpy.origin is None or bootstrapper is None or bootstrapper.origin is None:
         return None

@@ -1,6 +1,6 @@
-"""Constants of messages, for code that judges or draws a record and need not load ROS.
+"""Constants of messages, for code that checks or draws a record without loading ROS.
 
-A test compares them with the messages themselves.
+A test compares them with the constants in the messages.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ class GoalStatus(IntEnum):
 
 
 class RobotMode(IntEnum):
-    """What the robot does, as in humanoid_interfaces/RobotState."""
+    """The robot's modes, as in humanoid_interfaces/RobotState."""
 
     OFF = 0
     STANDING = 1
@@ -30,6 +30,6 @@ class RobotMode(IntEnum):
 
 
 def name_of(constants: type[IntEnum], value: int) -> str:
-    """Return the name of a constant, or the value as text if it has none, since a node may send any value."""
+    """Return the name of the constant with this value, or the value as text: a node may send any value."""
     names = {int(constant): constant.name for constant in constants}
     return names.get(value, str(value))

@@ -1,4 +1,4 @@
-"""ROS messages as plain nested dicts, field by field, and back; and the names of their types."""
+"""Converts ROS messages to nested dicts and back, and message types to their names and back."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def message_type(name: str) -> type:
     """
     parts = _TYPE_NAME.fullmatch(name)
     if parts is None:
-        raise ValueError(f"{name[:100]!r} is no name of a message type")
+        raise ValueError(f"{name[:100]!r} is not the name of a message type")
     package, kind, interface, part = parts.groups()
     try:
         found = getattr(import_module(f"{package}.{kind}"), interface)
@@ -48,13 +48,13 @@ def to_dict(message: Any) -> dict[str, Any]:
 
 
 def from_dict(message_type: type, values: dict[str, Any], *, strict: bool = False) -> Any:
-    """Return a message of `message_type` with the given fields; those not given keep their defaults.
+    """Return a message of `message_type` with the given fields; other fields keep their defaults.
 
-    `strict` has rosidl check that each value fits its field, which it does not do by itself.
+    With `strict`, rosidl checks that each value fits its field; by default it does not check.
 
     Raises:
-        AttributeError: there is no such field; it names those there are.
-        AssertionError: a value does not fit, in a strict message.
+        AttributeError: the message has no such field; the error lists its fields.
+        AssertionError: with `strict`, a value does not fit its field.
     """
     message = message_type()
     fill(message, values, strict=strict)

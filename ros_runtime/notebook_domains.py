@@ -1,7 +1,8 @@
 """The ROS domains of the lab's notebooks, which the terminals beside them join.
 
-Each notebook has a domain of its own. `course lab` names a file in the environment of all its kernels and terminals;
-a notebook adds its domain there when it joins one. The file is in memory: it is gone when the lab's process ends.
+Each notebook has a domain of its own. `course lab` creates a file and passes its path to all kernels and terminals in
+an environment variable. A notebook appends its domain to the file when it joins the domain. The file is in memory and
+disappears when the lab's process ends.
 """
 
 from __future__ import annotations
@@ -13,14 +14,14 @@ from pathlib import Path
 from ros_runtime.ros_domain import is_reserved
 
 VARIABLE = "COURSE_NOTEBOOK_DOMAINS"
-EXPECTED = "COURSE_NOTEBOOK_NODES"  # in the environment of a notebook's cells: full names of nodes that run
+EXPECTED = "COURSE_NOTEBOOK_NODES"  # variable in a notebook's cells: full names of the nodes that run
 _FILE = "course-lab-domains"
 
 
 def lab_variables() -> dict[str, str]:
-    """Create the file in which a new lab's notebooks write their domains; return the variable that names it.
+    """Create the file to which a new lab's notebooks append their domains; return the variable with its path.
 
-    It lasts as long as this process, also if this process becomes another program (`exec`).
+    The file exists as long as this process, also after an `exec`.
     """
     descriptor = os.memfd_create(_FILE, flags=0)  # without MFD_CLOEXEC
     return {VARIABLE: f"/proc/{os.getpid()}/fd/{descriptor}"}
@@ -34,14 +35,14 @@ def announce(domain_id: int) -> None:
 
 
 def latest() -> int | None:
-    """Return the domain of the notebook that joined last, of those that still run; None if there is none."""
+    """Return the domain that was joined last by a notebook that still runs; None if there is none."""
     file = _file_of_the_lab()
     announced = file.read_text(encoding="utf-8").split() if file else []
     return next((int(domain) for domain in reversed(announced) if is_reserved(int(domain))), None)
 
 
 def _file_of_the_lab() -> Path | None:
-    """Return the lab's file; None outside a lab, and when the lab has ended: its process id may be another's."""
+    """Return the lab's file; None outside a lab or after its end, when another process may have the lab's id."""
     file = Path(os.environ.get(VARIABLE, ""))
     with suppress(OSError):
         if _FILE in os.readlink(file):

@@ -13,7 +13,7 @@ from rclpy.node import Node
 ANSWER_TIMEOUT = 0.1  # s to wait for an answer before the next request
 
 
-def wait_until_reachable(node: Node, name: str, gives_up: Callable[[], bool]) -> bool:
+def wait_until_reachable(node: Node, name: str, should_stop: Callable[[], bool]) -> bool:
     """Request a node's parameter list repeatedly until it answers.
 
     Discovery is not simultaneous: a request or answer is lost while only one of two nodes has discovered the other.
@@ -22,20 +22,20 @@ def wait_until_reachable(node: Node, name: str, gives_up: Callable[[], bool]) ->
     Args:
         node: sends the requests; another thread spins it.
         name: the full name of the node to reach.
-        gives_up: called between two requests; True ends the wait.
+        should_stop: called between two requests; True ends the wait.
 
     Returns:
         Whether the node has answered.
     """
-    return name in wait_until_all_reachable(node, [name], gives_up)
+    return name in wait_until_all_reachable(node, [name], should_stop)
 
 
-def wait_until_all_reachable(node: Node, names: Sequence[str], gives_up: Callable[[], bool]) -> set[str]:
+def wait_until_all_reachable(node: Node, names: Sequence[str], should_stop: Callable[[], bool]) -> set[str]:
     """Like `wait_until_reachable`, for several nodes at once; return the names of those that answered."""
     clients = {name: node.create_client(ListParameters, f"{name}/list_parameters") for name in names}
     reachable: set[str] = set()
     try:
-        while len(reachable) < len(clients) and not gives_up():
+        while len(reachable) < len(clients) and not should_stop():
             found = {
                 name: client
                 for name, client in clients.items()
@@ -43,25 +43,25 @@ def wait_until_all_reachable(node: Node, names: Sequence[str], gives_up: Callabl
             }
             if not found:
                 time.sleep(ANSWER_TIMEOUT / 10)
-            reachable |= _ask_once(found)
+            reachable |= _request_once(found)
     finally:
         for client in clients.values():
             node.destroy_client(client)
     return reachable
 
 
-def _ask_once(clients: Mapping[str, Client]) -> set[str]:
+def _request_once(clients: Mapping[str, Client]) -> set[str]:
     """Send each client's request once; return the names of the nodes that answered within ANSWER_TIMEOUT."""
-    asked = {
+    sent = {
         name: (client.call_async(ListParameters.Request()), threading.Event())
         for name, client in clients.items()
     }
-    for future, answered in asked.values():
+    for future, answered in sent.values():
         future.add_done_callback(lambda _, answered=answered: answered.set())
     deadline = time.monotonic() + ANSWER_TIMEOUT
     in_time = {
-        name for name, (_, answered) in asked.items() if answered.wait(max(0.0, deadline - time.monotonic()))
+        name for name, (_, answered) in sent.items() if answered.wait(max(0.0, deadline - time.monotonic()))
     }
-    for name in asked.keys() - in_time:
-        clients[name].remove_pending_request(asked[name][0])
+    for name in sent.keys() - in_time:
+        clients[name].remove_pending_request(sent[name][0])
     return in_time

@@ -1,6 +1,6 @@
 """Reserve a ROS domain, and keep its nodes on the loopback interface.
 
-Two students on one machine would otherwise drive each other's robot, and two arenas grade each other's.
+Otherwise the nodes of two students on one machine would move each other's robot, and so would those of two arenas.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
-# The ports of other domains lie in the range from which Linux takes ephemeral ports; 0 is what people use.
+# The ports of other domains lie in Linux's range of ephemeral ports. Domain 0 is the default of ROS, so others use it.
 DOMAIN_IDS = (*range(1, 102), *range(215, 233))
-LAST_DOMAIN_ID = 232  # of those that have ports
+LAST_DOMAIN_ID = 232  # the highest one for which DDS has ports
 LOOPBACK_ONLY = Path(__file__).with_name("loopback_only.xml")
 
 
@@ -37,7 +37,7 @@ def require_usable_domain() -> None:
 
 
 class ReservedDomain:
-    """A ROS domain that is ours until it is released or this process ends. The locks are shared by all users.
+    """A ROS domain that this process reserves until it releases the domain or ends. All users share the locks.
 
     Attributes:
         domain_id: one of `DOMAIN_IDS`.

@@ -1,4 +1,4 @@
-"""Stores the last self-check of each exercise for the student's progress page, and reads files of progress."""
+"""Stores the last self-check of each exercise for the student's progress page, and reads progress files."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 
 from ros_runtime.project import WORK
 
-FILE = WORK / "exercises" / ".progress.json"  # not in an exercise's folder, which is handed in
+FILE = WORK / "exercises" / ".progress.json"  # not in an exercise's folder, because students submit that
 KIND = "checks"
 
 
@@ -26,7 +26,7 @@ class LastCheck:
 
 
 def last_checks(file: Path = FILE) -> dict[str, LastCheck]:
-    """Return the last self-check of each exercise that was checked; damaged entries are left out."""
+    """Return the last self-check of each exercise that has one; damaged entries are left out."""
     checks = {}
     for exercise, entry in entries_of(file, KIND).items():
         with contextlib.suppress(TypeError):
@@ -34,7 +34,7 @@ def last_checks(file: Path = FILE) -> dict[str, LastCheck]:
     return checks
 
 
-def keep_check(exercise: str, passed: int, total: int, program: str = "", file: Path = FILE) -> None:
+def store_check(exercise: str, passed: int, total: int, program: str = "", file: Path = FILE) -> None:
     """Store a self-check of one of the course's exercises; does nothing if the file cannot be written."""
     if not (file.parent / exercise).is_dir():  # an exercise of another course
         return
@@ -45,13 +45,13 @@ def keep_check(exercise: str, passed: int, total: int, program: str = "", file: 
 
 
 def entries_of(file: Path, kind: str) -> dict[str, Any]:
-    """Return the entries of one kind in a file of progress; {} if there are none, or the file is damaged."""
+    """Return the entries of one kind in a progress file; {} if there are none, or the file is damaged."""
     entries = read_progress_file(file).get(kind)
     return entries if isinstance(entries, dict) else {}
 
 
 def read_progress_file(file: Path) -> dict[str, Any]:
-    """Return all that a file of progress holds; {} if there is no such file, or it is damaged."""
+    """Return the content of a progress file; {} if there is no such file, or it is damaged."""
     try:
         kept = json.loads(file.read_text(encoding="utf-8"))
     except (OSError, ValueError):

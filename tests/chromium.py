@@ -1,4 +1,4 @@
-"""The browser that tests look with: kept off the network, and drawing without a graphics card where a page needs it."""
+"""The tests' browser: without access to the network, and able to draw in 3D without a graphics card."""
 
 import shutil
 

@@ -1,4 +1,4 @@
-"""The tier of each test, which its first folder names, and the order in which the files begin."""
+"""The tier of each test, by its first folder, and the order in which the files start."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 TESTS = Path(__file__).parent
-# The longest files begin first. Then come robots and chapters, which wait for their clocks while the submissions of
-# test_audit.py compute; what computes itself follows, and the short files of the fast tier fill the end.
+# The longest files start first. Then come robots and chapters, which mostly wait for their clocks while the submissions
+# of test_audit.py use the processor. Files that use the processor themselves follow, and the fast tier's short ones.
 FIRST = ("test_bare_debian.py", "test_audit.py", "test_notebooks_run.py")
 TIERS = ("robot", "arena", "browser", "fast")
 
@@ -76,7 +76,7 @@ def number_of_the_commit() -> int:
 
 
 def turn_of(file: Path) -> int:
-    """When a file begins, as a number to sort by."""
+    """The position of a file in the order of starts, as a number to sort by."""
     if file.name in FIRST:
         return FIRST.index(file.name)
     return len(FIRST) + (TIERS.index(tier_of(file)) if file.is_relative_to(TESTS) else len(TIERS))

@@ -1,4 +1,4 @@
-"""A robot that falls beside a goal: what an arena would have recorded of it."""
+"""The record of an arena in which the robot falls during a goal, made by hand."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from typing import Any
 from autograder.arena import events as ev
 from ros_runtime.record.event import Event, as_line, to_json
 from ros_runtime.record.event_log import EventLog
-from ros_runtime.recorded_client.conversation import NOBODYS
+from ros_runtime.recorded_client.conversation import UNKNOWN_GOAL
 
 MOST_OF_A_KIND = 5000  # events of one kind for one goal, call, …; far more than a correct node sends
 MOST_OF: Mapping[str, int] = {
@@ -82,14 +82,14 @@ class ArenaLog(EventLog):
 
         Args:
             what: the kind of event.
-            of: the goal, call or service it belongs to, or NOBODYS. Each has a limit of its own, so that a flood for
-                one displaces no event of another.
+            of: the goal, call or service it belongs to, or UNKNOWN_GOAL. Each has a limit of its own, so that a flood
+                for one displaces no event of another.
         """
         now = time.monotonic()
         with self._counting:
             self._first.setdefault(what, now)
             self._counts[what, of] += 1
-            most = MOST_UNMATCHED if of == NOBODYS else MOST_OF.get(what, MOST_OF_A_KIND)
+            most = MOST_UNMATCHED if of == UNKNOWN_GOAL else MOST_OF.get(what, MOST_OF_A_KIND)
             admitted = self._counts[what, of] <= most and self._bytes < LARGEST_RECORD
         if not admitted:
             self.drop(what)

@@ -31,7 +31,7 @@ class BoundedReading(Reading):
         self._log = log
 
     def admits(self, what: str, of: str) -> bool:
-        """Return whether to read one more event of a kind; `of` names its goal, call or service, or is NOBODYS."""
+        """Return whether to read one more event of a kind; `of` names its goal, call or service, or is UNKNOWN_GOAL."""
         return self._log.admits(what, of)
 
     def is_too_large(self, what: str, id: str, message: Any) -> bool:

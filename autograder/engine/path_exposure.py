@@ -13,13 +13,13 @@ from pathlib import Path
 
 from autograder.engine.submission_arena import student_paths
 from autograder.isolation.bubblewrap import SYSTEM_PATHS
-from ros_runtime.course_error import COULD_NOT, CourseError
+from ros_runtime.course_error import COMMAND_FAILED, CourseError
 
 
 class HiddenChecksRefused(CourseError):
     """Hidden checks would be exposed to the submission on this machine."""
 
-    exit_status = COULD_NOT
+    exit_status = COMMAND_FAILED
 
 
 def require_hidden(hidden: Iterable[Path], shown: Iterable[str | Path] | None = None) -> None:

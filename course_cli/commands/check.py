@@ -14,7 +14,7 @@ from autograder.engine.exercise import essay_names, exercise_names, scenario_fil
 from autograder.engine.submission import read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.handing_in import hidden_checks
-from course_cli.ending import COULD_NOT, NOT_GRADED
+from course_cli.ending import COMMAND_FAILED, NOT_GRADED
 from course_cli.options import CourseOption, JobsOption
 from course_cli.own_work import own_work
 
@@ -60,7 +60,7 @@ def check(
             f"Next: ./course check {exercise} --jobs 1, when the machine is less busy.", markup=False
         )
         raise typer.Exit(NOT_GRADED)
-    raise typer.Exit(0 if result.all_passed else COULD_NOT)
+    raise typer.Exit(0 if result.all_passed else COMMAND_FAILED)
 
 
 def _show_rubric(console: Console, exercise: str, path: Path) -> None:

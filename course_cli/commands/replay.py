@@ -17,7 +17,7 @@ from autograder.recording.replay.recording import (
     span_of,
 )
 from autograder.recording.replay.text import line, time_line, title
-from course_cli.ending import COULD_NOT, UNUSABLE, error_exit
+from course_cli.ending import COMMAND_FAILED, UNUSABLE, error_exit
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 
@@ -65,7 +65,7 @@ def replay(
     except ValueError as error:
         raise error_exit(console, error, UNUSABLE) from error
     except (NoOpenGLError, OSError) as error:
-        raise error_exit(console, error, COULD_NOT) from error
+        raise error_exit(console, error, COMMAND_FAILED) from error
 
 
 def _in_the_browser(console: Console, recording: Recording, span: Span, port: int) -> None:
@@ -81,6 +81,6 @@ def _in_the_browser(console: Console, recording: Recording, span: Span, port: in
         )
     except ImportError as error:
         reason = "the web view needs MuJoCo 4, which needs Python 3.11 or newer; use --film or --text"
-        raise error_exit(console, UnusableRecording(reason), COULD_NOT) from error
+        raise error_exit(console, UnusableRecording(reason), COMMAND_FAILED) from error
     except KeyboardInterrupt:
         return

@@ -22,7 +22,7 @@ from ros_runtime.record.client_events import (
 )
 from ros_runtime.record.event import Event
 from ros_runtime.record.event_log import EventLog
-from ros_runtime.recorded_client.conversation import NOBODYS, Conversation, Reading
+from ros_runtime.recorded_client.conversation import UNKNOWN_GOAL, Conversation, Reading
 
 
 class InteractionLog(EventLog):
@@ -91,7 +91,7 @@ class _OwnGoals(Reading):
     """Reads the feedback and status of this notebook's goals only, not of other clients' goals."""
 
     def admits(self, what: str, of: str) -> bool:
-        return of != NOBODYS
+        return of != UNKNOWN_GOAL
 
 
 log = InteractionLog()

@@ -10,7 +10,7 @@ from IPython.display import HTML
 from lab.errors import LabError
 from ros_runtime.design import EXAMPLE, Design, read_design
 from ros_runtime.drawing.design_graph import design_svg
-from ros_runtime.self_checks import keep_check
+from ros_runtime.self_checks import store_check
 
 FACTS_OF_A_LINK = 6
 LARGEST = 1_000_000  # bytes
@@ -38,7 +38,7 @@ def check_design(file: str | Path, links: int = 1) -> None:
     design = _read(path)
     sentences = list(_what_is_missing(design, links))
     said = sum(FACTS_OF_A_LINK - len(link.missing()) for link in design.links)
-    keep_check(path.stem, said, FACTS_OF_A_LINK * max(links, len(design.links)))
+    store_check(path.stem, said, FACTS_OF_A_LINK * max(links, len(design.links)))
     print(f"{path}: {_count(len(design.nodes), 'node')}, {_count(len(design.links), 'link')}")
     for sentence in sentences:
         print(f"  {sentence}")

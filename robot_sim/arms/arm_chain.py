@@ -1,4 +1,4 @@
-"""The joints between the body and a hand, as an inverse kinematics needs them."""
+"""The joints between the body and a hand, for the inverse kinematics."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class ArmChain:
         self._is_robot = model.body_rootid == model.body("pelvis").id
 
     def metres_short(self, data: mujoco.MjData, position: np.ndarray) -> float:
-        """Return by how much (m) the stretched arm is too short to reach `position` (3,), at least; 0: long enough."""
+        """Return at least how much (m) the stretched arm is too short to reach `position` (3,); 0: long enough."""
         shoulder = data.xpos[self._shoulder]
         if not self._turns:
             return max(0.0, float(np.linalg.norm(position - shoulder)) - self._length)

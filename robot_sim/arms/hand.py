@@ -31,7 +31,7 @@ class Hand:
     def open_to(self, opening: float) -> None:
         """Bring the pads `opening` (m) apart; values beyond 0 to 0.09 m are clamped.
 
-        Around an object each finger presses with 800 N/m times its distance from where it should be, at most 25 N.
+        If an object is in between, each finger presses with 800 N/m times its position error, at most 25 N.
 
         Raises:
             ValueError: the opening is not finite.
@@ -42,14 +42,14 @@ class Hand:
 
     @property
     def pose(self) -> HandPose:
-        """Where the point between the pads is, and which way the fingers point."""
+        """Pose of the point between the pads."""
         quaternion = np.empty(4)
         mujoco.mju_mat2Quat(quaternion, self.rotation.ravel())
         return HandPose(self._grip.xpos.copy(), np.roll(quaternion, -1))  # MuJoCo has w first
 
     @property
     def rotation(self) -> np.ndarray:
-        """Rotation matrix (3, 3) of the hand in the world frame: x along the fingers, y the way they open."""
+        """Rotation matrix (3, 3) of the hand in the world frame: x along the fingers, y in their opening direction."""
         return hand_rotation(self._grip.xmat)
 
     @property
@@ -58,9 +58,9 @@ class Hand:
         return float(self._data.qpos[self._slides].sum())
 
     def tick(self, timestep: float) -> None:
-        """Let the force sensor follow the contact forces for one timestep (s): a low pass of the first order.
+        """Update the force sensor for one timestep (s): it is a first-order low pass of the contact forces.
 
-        When a hand jerks, a pad that presses with 10 N can leave what it holds for 5 ms, and nothing is lost.
+        When a hand jerks, a pad that presses with 10 N can lose contact for 5 ms without dropping the object.
         """
         share = timestep / (timestep + TIME_CONSTANT)
         first, second = self._felt
@@ -77,15 +77,15 @@ class Hand:
 
     @property
     def grip_force(self) -> float:
-        """Force with which an object is held, N to three digits, by the force sensor: of the pad that presses less."""
+        """Force on a held object by the force sensor, N, rounded to three digits: that of the pad that presses less."""
         return round(min(self._felt), 3)
 
 
 def hand_rotation(grip: np.ndarray) -> np.ndarray:
     """Return the rotation matrix (3, 3) of a hand, given that (9,) of its grip site.
 
-    Its x points along the fingers and its y the way they open, so that a hand that points ahead, with the fingers side
-    by side, has the axes of base_link. The site's -z and y do.
+    The hand's x axis points along the fingers; it is the site's -z axis. The hand's y axis is the opening direction; it
+    is the site's y axis. So a hand that points ahead, with its fingers side by side, has the axes of base_link.
     """
     x, y, z = grip.reshape(3, 3).T
     return np.column_stack((-z, y, x))

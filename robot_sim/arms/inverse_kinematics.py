@@ -13,19 +13,19 @@ from robot_sim.arms.hand import hand_rotation
 from robot_sim.arms.reach import rotation_vector
 from robot_sim.model.side import SIDES, Side
 
-MOST_GIVEN_WAY = 0.03  # m, the most that the body moves to balance an arm
+LARGEST_BODY_SHIFT = 0.03  # m, largest motion of the body when it balances an arm
 
 
 @dataclass(frozen=True)
 class HandGoal:
-    """Where the point between the pads of a hand is to be, in base_link.
+    """A goal for the point between the pads of a hand, in base_link.
 
     Attributes:
         position: (3,) m.
-        rotation: (3, 3) of the hand, x along the fingers, y the way they open; None: any.
+        rotation: (3, 3) of the hand, x along the fingers, y in their opening direction; None: any.
         with_waist: the waist may turn, too.
-        balancing: the goal is fixed in the world, and base_link will move as the robot balances the arm, to keep its
-            centre of mass above its feet; False: the goal is fixed to base_link.
+        balancing: the goal is fixed in the world. While the arm moves, base_link moves, too, because the robot keeps
+            its centre of mass above its feet. False: the goal is fixed to base_link.
     """
 
     position: np.ndarray
@@ -43,7 +43,7 @@ class ArmPosture:
 
 
 class Unreachable(ValueError):
-    """No posture brings the hand to the goal; the message says what is in the way."""
+    """No posture brings the hand to the goal; the message says why."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,18 +58,18 @@ class SolverParameters:
     most_steps: int = 40  # from one start
     standstill: float = 0.9  # a step that leaves more than this share of the squared error ends a descent
     starts: int = 30
-    seed: int = 9  # of the starts at random
+    seed: int = 9  # of the random starts
 
 
 class ArmInverseKinematics:
     """A solver for both arms.
 
-    From a start it goes step by step down the squared error, by Newton's method with that error as the damping, so
-    that it neither leaps far from a solution nor creeps near one (T. Sugihara, "Solvability-unconcerned inverse
-    kinematics by the Levenberg-Marquardt method", IEEE Transactions on Robotics 27(5), 2011). Joints at the end of
-    their range are left out of a step. The first start is the arm as it is, so that a near solution is found first;
-    then come the relaxed arm and postures at random, always the same: the same goal in the same state has the same
-    solution.
+    From each start it reduces the squared error step by step, by the Levenberg-Marquardt method with the squared error
+    as the damping: far from a solution its steps do not overshoot, and near one they are not too small (T. Sugihara,
+    "Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt method", IEEE Transactions on Robotics 27(5),
+    2011). Joints at the end of their range are left out of a step. The first start is the arm's present posture, so
+    that a near solution is found first. The relaxed arm and random postures follow. The random postures are always the
+    same, so the same goal in the same state has the same solution.
     """
 
     def __init__(self, model: mujoco.MjModel) -> None:
@@ -92,13 +92,13 @@ class ArmInverseKinematics:
         chain = self._chains[side, goal.with_waist]
         self._stand_at_the_origin(state)
         missing = chain.metres_short(self._data, goal.position)
-        if missing > (MOST_GIVEN_WAY if goal.balancing else self._parameters.position_tolerance):
+        if missing > (LARGEST_BODY_SHIFT if goal.balancing else self._parameters.position_tolerance):
             raise Unreachable(f"the arm is {missing:.3f} m too short")
         closest = _Miss(np.inf, np.inf, np.inf)
         touches = False
         for start in self._starts(chain):
             positions, miss = self._descend(chain, goal, start)
-            if not self._is_there(miss):
+            if not self._is_within_tolerance(miss):
                 closest = min(closest, miss, key=lambda each: each.cost)
                 continue
             mujoco.mj_collision(self._model, self._data)
@@ -112,7 +112,7 @@ class ArmInverseKinematics:
         )
 
     def _stand_at_the_origin(self, state: mujoco.MjData) -> None:
-        """Take over the joints of a state, with base_link as the world."""
+        """Copy the joint positions of a state, with base_link at the origin of the world."""
         root = self._model.joint("root").qposadr[0]
         self._data.qpos[:] = state.qpos
         self._data.qpos[root : root + 7] = 0, 0, 0, 1, 0, 0, 0
@@ -128,11 +128,11 @@ class ArmInverseKinematics:
             yield chance.uniform(chain.low, chain.high)
 
     def _descend(self, chain: ArmChain, goal: HandGoal, start: np.ndarray) -> tuple[np.ndarray, _Miss]:
-        """Return the posture (n,) rad that a start leads to, and how far from the goal it is."""
+        """Return the posture (n,) rad that is found from a start, and its distance from the goal."""
         positions = start
         error, miss = self._error(chain, goal, positions)
         for _ in range(self._parameters.most_steps):
-            if self._is_there(miss):
+            if self._is_within_tolerance(miss):
                 break
             before = miss
             positions = self._step(chain, goal, positions, error)
@@ -142,7 +142,7 @@ class ArmInverseKinematics:
         return positions, miss
 
     def _error(self, chain: ArmChain, goal: HandGoal, positions: np.ndarray) -> tuple[np.ndarray, _Miss]:
-        """Pose the arm; return the error (3,) m, or with the weighted rotation (6,) m, and the miss."""
+        """Set the arm's positions; return the error, (3,) m or with the weighted rotation (6,) m, and the distances."""
         self._data.qpos[chain.positions] = positions
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_comPos(self._model, self._data)
@@ -156,7 +156,7 @@ class ArmInverseKinematics:
         return error, _Miss(float(np.linalg.norm(shift)), float(np.linalg.norm(turn)), float(error @ error))
 
     def _step(self, chain: ArmChain, goal: HandGoal, positions: np.ndarray, error: np.ndarray) -> np.ndarray:
-        """Return the positions (n,) rad of one step nearer, within the joints' ranges."""
+        """Return the positions (n,) rad after one step, within the joints' ranges."""
         mujoco.mj_jacSite(self._model, self._data, self._jacobian[:3], self._jacobian[3:], chain.grip)
         if goal.balancing:
             mujoco.mj_jacSubtreeCom(self._model, self._data, self._com_jacobian, self._body)
@@ -178,7 +178,7 @@ class ArmInverseKinematics:
             free &= ~stopped
             jacobian[:, stopped] = 0.0
 
-    def _is_there(self, miss: _Miss) -> bool:
+    def _is_within_tolerance(self, miss: _Miss) -> bool:
         limits = self._parameters
         return miss.distance < limits.position_tolerance and miss.angle < limits.rotation_tolerance
 

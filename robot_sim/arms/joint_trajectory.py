@@ -28,11 +28,11 @@ class Waypoint:
 
 @dataclass(frozen=True)
 class JointTrajectory:
-    """Names of joints and the waypoints they pass, in the order of their times.
+    """Names of joints, and the waypoints through which they move, in the order of their times.
 
     Raises:
         ValueError: a joint cannot be moved, a list has a wrong length, a number is not finite, or times do not
-            increase. The message says which and what was expected.
+            increase. The message says where, and what was expected.
     """
 
     joints: tuple[str, ...]
@@ -73,10 +73,10 @@ def _check_waypoint(number: int, waypoint: Waypoint, joints: int) -> None:
 
 
 class JointPath:
-    """The motion along a trajectory that starts where the joints are.
+    """The motion along a trajectory from the present positions of the joints.
 
-    Between waypoints with velocities it is the cubic with these velocities at its ends (Hermite interpolation), else
-    a straight line, as ros2_controllers' joint trajectory controller does.
+    It is interpolated as in ros2_controllers' joint trajectory controller: by cubics between waypoints with velocities
+    (Hermite interpolation), otherwise by straight lines.
 
     Args:
         trajectory: the waypoints, at least one.
@@ -96,7 +96,7 @@ class JointPath:
         return self._waypoints[-1].time
 
     def at(self, time: float) -> list[float]:
-        """Return the positions (n,) rad at `time` (s), which must not go back; after the end, those of the end."""
+        """Return the positions (n,) rad at `time` (s), after the end the last ones; `time` must never decrease."""
         while self._segment < len(self._waypoints) - 2 and time > self._waypoints[self._segment + 1].time:
             self._segment += 1
         before, after = self._waypoints[self._segment : self._segment + 2]

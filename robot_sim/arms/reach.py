@@ -1,4 +1,4 @@
-"""Bring a hand to a place: resolved-rate control of an arm with damped least squares."""
+"""Moves a hand to a target: resolved-rate control of an arm with damped least squares."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from robot_sim.model.joint_names import ARM, WAIST, arm_joints
 from robot_sim.model.posture import on_side
 from robot_sim.model.side import Side
 
-LEAST_DAMPING = 1e-3  # m, that only keeps a matrix invertible
-# Where the null space drifts to, with the elbow away from the body: rad, left arm; the other joints 0.
+LEAST_DAMPING = 1e-3  # m, just enough to keep a matrix invertible
+# The posture that the null-space motion approaches, with the elbow away from the body: rad, left arm; other joints 0.
 RELAXED_ARM = {"shoulder_pitch": 0.3, "shoulder_roll": 0.7, "elbow": -1.4}
 
 
@@ -27,7 +27,7 @@ class ReachParameters:
     relaxation: float = 0.8  # 1/s, towards the relaxed posture
     joint_speed: float = 2.5  # rad/s
     turn_speed: float = 2.0  # rad/s, of the hand
-    windup: float = 0.25  # rad, reference ahead of the measured joint
+    windup: float = 0.25  # rad, largest distance of the reference from the measured joint
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class HandTarget:
 
 
 class Reach:
-    """A motion of one hand along a straight line to a target, where it then stays.
+    """A motion of one hand along a straight line to a target, at which it then stays.
 
     Joint velocities follow from the hand's velocity by damped least squares, q̇ = Jᵀ(JJᵀ + λ²I)⁻¹ v (C. W. Wampler,
     "Manipulator inverse kinematic solutions based on vector formulations and damped least-squares methods", IEEE
@@ -82,7 +82,7 @@ class Reach:
         return float(np.linalg.norm(np.array(self._target.position) - self._data.site_xpos[self._grip]))
 
     def rotation_error(self) -> float:
-        """Angle between the hand and the wanted rotation, rad; 0 where none is wanted."""
+        """Angle between the hand and the target's rotation, rad; 0 if the target has none."""
         if self._target.rotation is None:
             return 0.0
         return float(np.linalg.norm(rotation_vector(self._rotation(), self._target.rotation)))
@@ -92,7 +92,7 @@ class Reach:
         mujoco.mj_jacSite(self._model, self._data, self._jacobian[:3], self._jacobian[3:], self._grip)
         jacobian, velocity = self._task()
         relax = self._parameters.relaxation * (self._relaxed - reference)
-        # The projection is hardly damped: it would let the relaxation pull the hand away from its target.
+        # The projection has little damping: with more, the relaxation would pull the hand away from its target.
         velocities = (
             _damped_inverse(jacobian, self._parameters.damping) @ velocity
             + relax
@@ -149,5 +149,5 @@ def _shortened(vector: np.ndarray, longest: float) -> np.ndarray:
 
 
 def relaxed_arm(side: Side) -> list[float]:
-    """Return the positions (7,) rad of an arm at ease, with its elbow away from the body."""
+    """Return the positions (7,) rad of a relaxed arm, with its elbow away from the body."""
     return [on_side(side, joint, RELAXED_ARM.get(joint, 0.0)) for joint in ARM]

@@ -1,4 +1,4 @@
-"""Position servos driven without lag, by feed-forward of the torque that the motion needs."""
+"""Position servos without lag: the torque that the motion needs is fed forward."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ RANGE_MARGIN = 0.02  # rad, kept from the joints' stops
 class Servos:
     """Position servos of `joints`, in that order.
 
-    A servo alone sags under gravity and trails a motion, because its torque is kp·(ctrl - q) - kv·q̇. The command
-    therefore adds the forces of the rigid body (`qfrc_bias`) and the damping of the wanted motion:
+    A servo alone sags under gravity and lags behind a motion, because its torque is kp·(ctrl - q) - kv·q̇. The command
+    therefore adds the rigid-body forces (`qfrc_bias`) and the damping of the commanded motion:
     ctrl = q_ref + (bias + kv·q̇_ref) / kp (computed-torque feed-forward; B. Siciliano et al., "Robotics: Modelling,
     Planning and Control", 2009, section 8.5).
     """
@@ -36,7 +36,7 @@ class Servos:
         return self._data.qpos[self._positions]
 
     def within_range(self, position: np.ndarray) -> np.ndarray:
-        """Return positions (n,), rad, brought into the joints' ranges; `np.clip` would take several times as long."""
+        """Return positions (n,), rad, clamped to the joints' ranges; `np.clip` would take several times as long."""
         return np.minimum(np.maximum(position, self._low), self._high)
 
     def command(self, position: np.ndarray, velocity: np.ndarray) -> None:

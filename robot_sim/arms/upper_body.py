@@ -1,4 +1,4 @@
-"""The control of waist, head and arms: hold, follow a trajectory, or bring a hand to a place."""
+"""The control of waist, head and arms: hold, follow a trajectory, or move a hand to a target."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class UpperBodyParameters:
 
 
 class UpperBody:
-    """The controller of the 18 joints above the hips without fingers. A joint without a command holds its place.
+    """The controller of the 18 joints of waist, head and arms. A joint without a command holds its position.
 
     Until the first command the servos hold the posture of the stance by themselves.
     """
@@ -50,9 +50,9 @@ class UpperBody:
         self._reaches: dict[Side, Reach] = {}
 
     def follow(self, trajectory: JointTrajectory) -> None:
-        """Follow a trajectory from where the joints are; it replaces an earlier one. Empty: hold.
+        """Follow a trajectory from the present positions; it replaces an earlier one. Empty: hold.
 
-        Positions beyond a joint's range are brought to its end, and no joint moves faster than its limit.
+        Positions are clamped to the joints' ranges, and no joint moves faster than its limit.
         """
         self._begin()
         self._reaches.clear()
@@ -68,7 +68,7 @@ class UpperBody:
             self._path_time = 0.0
 
     def reach(self, side: Side, target: HandTarget) -> Reach:
-        """Bring the hand of a side to a target in a straight line; ends a trajectory."""
+        """Move the hand of a side to a target in a straight line; this ends a trajectory."""
         self._begin()
         self._path = None
         self._goal[:] = self._position
@@ -93,24 +93,24 @@ class UpperBody:
         within_range = self._servos.within_range(self._goal)
         self._position += np.minimum(np.maximum(within_range - before, -step), step)
         for reach in self._reaches.values():
-            self._stay_near_the_measured(reach)
+            self._limit_windup(reach)
         self._velocity = (self._position - before) / dt
         self._servos.command(self._position, self._velocity)
 
     @property
     def is_idle(self) -> bool:
-        """Whether nothing moves or is about to."""
+        """Whether no joint moves and no motion is left to do."""
         return self._path is None and not self._reaches and not self._velocity.any()
 
     def _begin(self) -> None:
-        """Take over from the servos' own hold, at the place they hold."""
+        """Start to command the servos, from the positions that they have held by themselves."""
         if not self._commanded:
             self._commanded = True
             self._position[:] = self._servos.within_range(self._servos.position)
             self._goal[:] = self._position
 
-    def _stay_near_the_measured(self, reach: Reach) -> None:
-        """Keep the reference of a blocked arm from running away (anti-windup)."""
+    def _limit_windup(self, reach: Reach) -> None:
+        """Limit the distance between reference and measured position, which would grow if the arm is blocked."""
         joints = [self._index[name] for name in reach.joints]
         measured, slack = self._servos.position[joints], self._parameters.reach.windup
         self._position[joints] = np.clip(self._position[joints], measured - slack, measured + slack)

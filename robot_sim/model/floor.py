@@ -16,7 +16,7 @@ class Floor:
 
     Attributes:
         slope: rad, how steeply it rises.
-        uphill: rad, the way it rises, from the x axis.
+        uphill: rad, the direction in which it rises, from the x axis.
         bumps: (x, y, height) m of square bumps of 8 cm, for a level floor.
     """
 
@@ -25,7 +25,7 @@ class Floor:
     bumps: tuple[tuple[float, float, float], ...] = ()
 
     def shape(self, spec: mujoco.MjSpec) -> None:
-        """Tilt the plane "floor" of a model that is still to be compiled, and put the bumps on it."""
+        """Tilt the plane "floor" of a model before it is compiled, and put the bumps on it."""
         orientation = spec.geom("floor").alt
         orientation.type = mujoco.mjtOrientation.mjORIENTATION_AXISANGLE
         across = (-math.sin(self.uphill), math.cos(self.uphill), 0.0)

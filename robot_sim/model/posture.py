@@ -10,7 +10,7 @@ from robot_sim.model.dimensions import Dimensions
 from robot_sim.model.joint_names import UPPER_BODY_JOINTS
 from robot_sim.model.side import SIDES, Side
 
-HIPS_AHEAD = 0.014  # m, of the ankles; brings the centre of mass over the soles' centres
+HIPS_AHEAD = 0.014  # m, ahead of the ankles, so that the centre of mass is above the soles' centres
 ARMS_AT_REST = {  # rad, left arm; mirrored joints change sign on the right
     "shoulder_pitch": 0.2,
     "shoulder_roll": 0.15,
@@ -39,7 +39,7 @@ def natural_posture(size: Dimensions) -> dict[str, float]:
 
 
 def on_side(side: Side, joint: str, angle: float) -> float:
-    """Return the angle (rad) of an arm's joint that mirrors `angle` of the left arm's."""
+    """Return the angle (rad) of an arm's joint on `side` that corresponds to `angle` on the left side."""
     return -angle if side is Side.RIGHT and joint in MIRRORED else angle
 
 

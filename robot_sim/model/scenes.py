@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 SCENES = {"flat": "humanoid.xml", "table": "table.xml", "stand": "stand.xml"}  # files beside this one
-OBJECTS = {"flat": (), "table": ("cup",), "stand": ()}  # what can be taken, by scene
+OBJECTS = {"flat": (), "table": ("cup",), "stand": ()}  # objects that the robot can take, by scene
 
 
 def scene_file(scene: str) -> Path:

@@ -6,14 +6,14 @@ from enum import IntEnum
 
 
 class Side(IntEnum):
-    """A side of the robot; its number is its place in every list of both sides, left first."""
+    """A side of the robot; its number is its index in every list of both sides."""
 
     LEFT = 0
     RIGHT = 1
 
     @property
     def letter(self) -> str:
-        """What the names of its joints, bodies, sites, sensors and topics begin with: "l" or "r"."""
+        """The first letter in the names of its joints, bodies, sites, sensors and topics: "l" or "r"."""
         return "l" if self is Side.LEFT else "r"
 
     @property

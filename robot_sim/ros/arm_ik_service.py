@@ -22,7 +22,7 @@ from robot_sim.model.side import SIDES, Side
 
 ARMS = {side.letter: side for side in SIDES}
 FRAMES = ("odom", "base_link")
-UNIT = 0.01  # how far a quaternion's length may be from 1
+QUATERNION_TOLERANCE = 0.01  # allowed deviation of a quaternion's length from 1
 
 
 class ArmIkService:
@@ -38,7 +38,7 @@ class ArmIkService:
 
     @cached_property
     def _kinematics(self) -> ArmInverseKinematics:
-        """Made for the first request: a robot that nobody asks need not pay for it."""
+        """The solver, made at the first request, because it takes time that most robots can save."""
         return ArmInverseKinematics(self._humanoid.model)
 
     def _answer(
@@ -46,8 +46,8 @@ class ArmIkService:
     ) -> ComputeArmIK.Response:
         try:
             posture = self._solve(request)
-        except _Refused as refusal:
-            response.error_code, response.message = refusal.code, str(refusal)
+        except _IkError as error:
+            response.error_code, response.message = error.code, str(error)
             return response
         response.error_code, response.message = ComputeArmIK.Response.SUCCESS, "reachable"
         response.joint_state.header.stamp = self._node.get_clock().now().to_msg()
@@ -64,15 +64,15 @@ class ArmIkService:
         try:
             return self._kinematics.solve(self._humanoid.data, side, goal)
         except Unreachable as error:
-            raise _Refused(
+            raise _IkError(
                 ComputeArmIK.Response.NO_IK_SOLUTION, f"hand_pose is out of reach: {error}"
             ) from None
 
     def _in_base_link(self, hand_pose: PoseStamped) -> tuple[np.ndarray, np.ndarray | None]:
-        """Return the position (3,) m and rotation (3, 3) of a pose as base_link is now; no rotation: any."""
+        """Return a pose's position (3,) m and rotation (3, 3) in the present base_link; None for any rotation."""
         frame = hand_pose.header.frame_id
         if frame not in FRAMES:
-            raise _Refused(
+            raise _IkError(
                 ComputeArmIK.Response.FRAME_TRANSFORM_FAILURE,
                 f"hand_pose is in frame {frame[:40]!r}; expected {' or '.join(FRAMES)}",
             )
@@ -85,8 +85,8 @@ class ArmIkService:
         return position, rotation
 
 
-class _Refused(Exception):
-    """Why there is no answer but an error code."""
+class _IkError(Exception):
+    """The request has no solution; `code` and message go into the response."""
 
     def __init__(self, code: int, message: str) -> None:
         super().__init__(message)
@@ -95,7 +95,7 @@ class _Refused(Exception):
 
 def _side(arm: str) -> Side:
     if arm not in ARMS:
-        raise _Refused(
+        raise _IkError(
             ComputeArmIK.Response.INVALID_GROUP_NAME, f"arm {arm[:40]!r} is not known; expected 'l' or 'r'"
         )
     return ARMS[arm]
@@ -105,7 +105,7 @@ def _position(hand_pose: PoseStamped) -> np.ndarray:
     point = hand_pose.pose.position
     position = np.array([point.x, point.y, point.z])
     if not np.isfinite(position).all():
-        raise _Refused(
+        raise _IkError(
             ComputeArmIK.Response.NO_IK_SOLUTION,
             f"hand_pose has the position {position.tolist()}; expected three finite numbers in m",
         )
@@ -113,14 +113,14 @@ def _position(hand_pose: PoseStamped) -> np.ndarray:
 
 
 def _rotation(hand_pose: PoseStamped) -> np.ndarray | None:
-    """Return the rotation (3, 3) of a pose; None where its quaternion is of zeros."""
+    """Return the rotation (3, 3) of a pose; None if its quaternion is all zeros."""
     numbers = hand_pose.pose.orientation
     quaternion = np.array([numbers.x, numbers.y, numbers.z, numbers.w])
     if not quaternion.any():
         return None
     length = float(np.linalg.norm(quaternion))
-    if not math.isclose(length, 1.0, abs_tol=UNIT):  # nor is NaN
-        raise _Refused(
+    if not math.isclose(length, 1.0, abs_tol=QUATERNION_TOLERANCE):  # NaN is not close either
+        raise _IkError(
             ComputeArmIK.Response.NO_IK_SOLUTION,
             f"hand_pose has a quaternion of length {length:.3g}; expected 1, or four zeros for any orientation",
         )

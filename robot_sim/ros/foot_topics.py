@@ -1,4 +1,4 @@
-"""What each foot feels, on the humanoid's node."""
+"""Publishes the force and torque on each foot."""
 
 from __future__ import annotations
 

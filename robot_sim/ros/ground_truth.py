@@ -54,10 +54,8 @@ class GroundTruthWriter:
         """Write that the robot stands and its topics exist."""
         self._write(RobotReady())
 
-    def robot(
-        self, humanoid: Humanoid, lag: float, command: tuple[float, float, float] | None = None
-    ) -> None:
-        """Write the robot's state and how far (s) the simulation was behind the clock, at most, since the last time."""
+    def robot(self, humanoid: Humanoid, lag: float) -> None:
+        """Write the robot's state, and the greatest lag (s) of the simulation behind the clock since the last call."""
         pose, velocity = humanoid.base_pose(), humanoid.base_velocity()
         x, y, z = pose.position.tolist()
         vx, vy, _ = velocity.linear.tolist()
@@ -97,7 +95,7 @@ class GroundTruthWriter:
         self._write(self._posture.description)
 
     def report_joints(self, humanoid: Humanoid, names: Sequence[str]) -> None:
-        """Write where these joints are, now and with each state of the robot from now on."""
+        """Write positions and velocities of these joints, now and with each state of the robot from now on."""
         joints = [humanoid.model.joint(name) for name in names]
         self._reported_joints = {
             joint.name: (int(joint.qposadr[0]), int(joint.dofadr[0])) for joint in joints
@@ -118,7 +116,7 @@ class GroundTruthWriter:
         )
 
     def report_feet(self, humanoid: Humanoid) -> None:
-        """Write what each foot carries, now and with each state of the robot from now on."""
+        """Write the load on each foot, now and with each state of the robot from now on."""
         self._feet_are_reported = True
         self._feet(humanoid)
 
@@ -160,19 +158,19 @@ class GroundTruthWriter:
         )
 
     def battery_published(self, message: BatteryState) -> None:
-        """Write what went out on battery_state."""
+        """Write a message that was published on battery_state."""
         self._write(BatteryPublished(message=message))
 
     def joints_published(self, names: Sequence[str], positions: Sequence[float]) -> None:
-        """Write what goes out on joint_states: a position for each name, rad (fingers: m)."""
+        """Write the content of a message on joint_states: a position for each name, rad (fingers: m)."""
         self._write(JointsPublished(names=list(names), positions=list(positions)))
 
     def imu_published(self, angular_velocity: Sequence[float], gyro_bias: Sequence[float]) -> None:
-        """Write what goes out on imu, and the gyro's true bias: rad/s about x, y and z of imu_link."""
+        """Write the angular velocity of a message on imu, and the gyro's true bias: rad/s about x, y, z of imu_link."""
         self._write(ImuPublished(angular_velocity=list(angular_velocity), gyro_bias=list(gyro_bias)))
 
     def arm(self, humanoid: Humanoid, side: Side) -> None:
-        """Write where elbow and hand of an arm are: m from its shoulder, along the torso's x, y and z."""
+        """Write the positions of an arm's elbow and hand: m from its shoulder, along the torso's x, y and z."""
         data = humanoid.data
         shoulder = data.body(f"{side.letter}_shoulder_pitch_link").xpos
         axes = data.body("torso").xmat.reshape(3, 3)
@@ -185,13 +183,13 @@ class GroundTruthWriter:
         self._write(RobotPeers(subscribers=subscribers, publishers=publishers))
 
     def motor_power(self, on: bool) -> None:
-        """Write a message that came on motor_power."""
+        """Write a message that was received on motor_power."""
         self._power_messages += 1
         if self._power_messages <= MOST_POWER_MESSAGES:
             self._write(MotorPowerReceived(on=on))
 
     def refused(self, topic: str, count: int, largest: int, limit: int, reason: str) -> None:
-        """Write how many messages of a topic were refused, the largest one's bytes, how many it may have, and why."""
+        """Write how many messages of a topic were refused, the bytes of the largest, the limit, and the reason."""
         self._write(RobotRefused(topic=topic, count=count, bytes=largest, limit=limit, reason=reason))
 
     def commanded(self, command: dict) -> None:

@@ -1,7 +1,7 @@
 """The messages of one subscription; any node may publish anything on its topic.
 
-Bytes are checked before they become objects, and the number of messages and bytes a second is limited: a node that
-publishes too many, or too large, messages is refused and cannot hold the robot up.
+Bytes are checked before they are deserialized, and the number of messages and bytes a second is limited. Messages that
+are too large are refused, and those beyond the limit have to wait, so that no node can delay the robot.
 """
 
 from __future__ import annotations
@@ -12,16 +12,16 @@ from typing import Any
 from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 
-FIXED_SIZE = 64  # bytes, more than any message of fixed length that the robot subscribes to
-MESSAGES_A_SECOND = 200  # per second of simulated time; after a silence, this many at once
-# Simulated: a little more than the largest trajectory, 10 ms of the processor's time.
+LARGEST_FIXED_SIZE = 64  # bytes, more than any message of fixed length that the robot subscribes to
+MESSAGES_A_SECOND = 200  # per second of simulated time; after a pause, as many are accepted at once
+# Per second of simulated time. The largest trajectory is a little smaller; it takes 10 ms of processor time.
 BYTES_A_SECOND = 400_000
 REPORT_PERIOD = 0.25  # s of simulated time between two reports on a topic
 
 FLOOD = f"more than {MESSAGES_A_SECOND} messages or {BYTES_A_SECOND} bytes a second"
 
 Report = Callable[[str, int, int, int, str], None]
-"""Takes a topic, how many of its messages were refused, the largest one's bytes, how many it may have, and why."""
+"""Takes a topic, how many of its messages were refused, the bytes of the largest, the limit, and the reason."""
 
 
 class Inbox:
@@ -29,9 +29,9 @@ class Inbox:
 
     Args:
         subscription: whose callback is called with each message.
-        report: is called for what was refused and for floods, at most every `REPORT_PERIOD`; its count for a flood is
-            how often the messages that followed had to wait.
-        most_bytes: a longer message is refused.
+        report: is called about refused messages and floods, at most every `REPORT_PERIOD`; for a flood, the count is
+            how often the limit was reached and the next messages had to wait.
+        most_bytes: longer messages are refused.
         why_not: returns why a message with these bytes is refused, or ""; a ValueError means that they are malformed.
     """
 
@@ -40,7 +40,7 @@ class Inbox:
         subscription: Subscription,
         report: Report | None = None,
         *,
-        most_bytes: int = FIXED_SIZE,
+        most_bytes: int = LARGEST_FIXED_SIZE,
         why_not: Callable[[bytes], str] = lambda _: "",
     ) -> None:
         self.topic: str = subscription.topic_name
@@ -49,13 +49,13 @@ class Inbox:
         self._most_bytes = most_bytes
         self._why_not = why_not
         self._tally: dict[str, _Tally] = {}
-        self._messages = float(MESSAGES_A_SECOND)  # that may still be taken
-        self._bytes = float(BYTES_A_SECOND)  # likewise
+        self._messages = float(MESSAGES_A_SECOND)  # number that may still be taken now
+        self._bytes = float(BYTES_A_SECOND)  # number that may still be taken now
         self._latest = 0.0
         self._next_report = 0.0
 
     def process_arrived(self, now: float) -> None:
-        """Process the messages that arrived by simulated time `now` (s), up to the limit; the newest others wait."""
+        """Process the messages that arrived by simulated time `now` (s), up to the limit; others wait in the queue."""
         if now < self._latest:  # as at a reset
             self._latest = self._next_report = now
         passed, self._latest = now - self._latest, now
@@ -69,7 +69,7 @@ class Inbox:
             self._next_report = now + REPORT_PERIOD
 
     def process(self, data: bytes) -> None:
-        """Pass one message on to the callback, given its bytes, unless it is refused."""
+        """Deserialize one message and pass it to the callback, unless it is refused."""
         self._messages -= 1
         self._bytes = max(-BYTES_A_SECOND, self._bytes - len(data))
         reason, message = self._open(data)
@@ -82,9 +82,9 @@ class Inbox:
     def report(self) -> None:
         """Report what has not been reported yet."""
         for reason, tally in self._tally.items():
-            if tally.is_news and self._report:
+            if tally.is_unreported and self._report:
                 self._report(self.topic, tally.count, tally.largest, self._most_bytes, reason)
-            tally.is_news = False
+            tally.is_unreported = False
 
     def _may_take(self) -> bool:
         return self._messages >= 1 and self._bytes > 0
@@ -96,19 +96,19 @@ class Inbox:
         try:
             reason = self._why_not(data)
             return reason, None if reason else deserialize_message(data, self._subscription.msg_type)
-        except Exception:  # what deserializing raises depends on the middleware
+        except Exception:  # the exception's type depends on the middleware
             return "malformed", None
 
     def _count(self, reason: str, size: int) -> None:
         tally = self._tally.setdefault(reason, _Tally())
         tally.count += 1
         tally.largest = max(tally.largest, size)
-        tally.is_news = True
+        tally.is_unreported = True
 
 
 class _Tally:
-    """How many messages, the largest's bytes, and whether that was reported."""
+    """The number of messages with one reason, the bytes of the largest, and whether the report of it is still due."""
 
     def __init__(self) -> None:
         self.count = self.largest = 0
-        self.is_news = False
+        self.is_unreported = False

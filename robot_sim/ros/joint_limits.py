@@ -1,4 +1,4 @@
-"""The topic joint_limits."""
+"""Publishes the topic joint_limits."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from robot_sim.ros.messages import floats
 
 
 def publish_joint_limits(node: Node, model: mujoco.MjModel, latched: QoSProfile) -> Publisher:
-    """Publish the limits of the joints that a trajectory can move, once for all who subscribe, now or later."""
+    """Publish the limits of the joints that a trajectory can move; later subscribers receive the message, too."""
     ranges = model.jnt_range[[model.joint(name).id for name in MOVABLE]]
     speeds = UpperBodyParameters()
     message = JointLimits(

@@ -1,4 +1,4 @@
-"""Topics of the arms, the hands and the objects they can take."""
+"""The topics of the arms, the hands and the objects."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ OBJECTS_RATE = 10.0
 
 
 class ManipulationTopics:
-    """The topic joint_trajectory, those of the hands, and the objects' poses, on the humanoid's node."""
+    """The topic joint_trajectory and the topics of hands and objects, on the humanoid's node."""
 
     def __init__(self, node: Node, humanoid: Humanoid) -> None:
         self._node = node

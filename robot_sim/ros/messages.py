@@ -11,7 +11,7 @@ from rclpy.publisher import Publisher
 
 
 def floats(values: np.ndarray) -> array[float]:
-    """Return numbers in the type that a message takes without checking each."""
+    """Return numbers as an array, which a message accepts without checking each number."""
     return array("d", values.tobytes())
 
 

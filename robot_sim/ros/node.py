@@ -1,4 +1,4 @@
-"""The robot's ROS face: node `humanoid`, every name relative to its namespace."""
+"""The robot's ROS interface: the node `humanoid`, with all names relative to its namespace."""
 
 from __future__ import annotations
 
@@ -57,13 +57,13 @@ class HumanoidNode(Node):
         super().__init__("humanoid", namespace=namespace)
         self.humanoid = humanoid
         self.battery_sensor_connected = True
-        self.clock_offset = 0  # ns, from the system's clock to the robot's, which stamps the messages
+        self.clock_offset = 0  # ns, added to the system clock in the stamps of all messages
         self.charge_measured = True  # if False, battery_state has percentage NaN
         self.joint_sensors_connected = True
         self.imu_connected = True
         self.joint_states_reversed = False
         self.joint_states_alternate = False  # the joint order is reversed in every second message
-        self.joint_readings: dict[str, float] = {}  # faked sensor readings by joint: rad (fingers: m)
+        self.joint_readings: dict[str, float] = {}  # false positions to publish, by joint: rad (fingers: m)
         self.robot_state_published = True
         self._ground_truth = ground_truth
         self._velocity_command_time: float | None = None
@@ -85,7 +85,7 @@ class HumanoidNode(Node):
             self.create_subscription(Twist, "cmd_vel", self._on_velocity, 10),
             self.create_subscription(Bool, "motor_power", self._on_motor_power, 10),
             self.create_subscription(BalanceGainsMessage, "balance_gains", self._on_balance_gains, 10),
-            # Receives earlier messages of transient local publishers, too; volatile ones match only the one above.
+            # This one also receives earlier messages, but matches only transient local publishers.
             self.create_subscription(BalanceGainsMessage, "balance_gains", self._on_balance_gains, LATCHED),
             *manipulation.grippers,
         )
@@ -110,7 +110,7 @@ class HumanoidNode(Node):
         )
 
     def _make_messages(self) -> None:
-        """Make the messages that are filled anew for each publication: making one costs more than sending it.
+        """Make the messages that are reused for each publication: making a message costs more than publishing it.
 
         They share one stamp.
         """
@@ -148,14 +148,14 @@ class HumanoidNode(Node):
         return self._periodic_jobs.next_due
 
     def publish_due(self) -> None:
-        """Publish what is due at the simulated time, and the robot's state as soon as it changes."""
+        """Publish the messages that are due at the simulated time, and the robot's state as soon as it changes."""
         self._stop_on_stale_command()
         if self._announcement() != self._last_announced:
             self._publish_robot_state()
         self._periodic_jobs.run(self.humanoid.time)
 
     def process_commands(self) -> None:
-        """Process the commands that have arrived, without the 0.3 ms that an executor's wait set costs each time."""
+        """Process the commands that have arrived, without an executor, whose wait set would take 0.3 ms each time."""
         for inbox in self.inboxes:
             inbox.process_arrived(self.humanoid.time)
 
@@ -174,7 +174,7 @@ class HumanoidNode(Node):
     def take_over(self, velocity: Sequence[float] | None) -> None:
         """Walk with a velocity (m/s, m/s, rad/s in base_link) and ignore cmd_vel, until called with None.
 
-        This acts like an operator's joystick, which has priority over programs; zeros hold the robot.
+        This acts like an operator's joystick, which has priority over programs. With zeros the robot stands.
         """
         self._is_taken_over = velocity is not None
         self._velocity_command_time = None
@@ -309,7 +309,7 @@ class HumanoidNode(Node):
         )
         peers = (
             {publisher.topic_name: publisher.get_subscription_count() for publisher in publishers},
-            # Node.count_publishers would take names apart and check them each time.
+            # Node.count_publishers would expand and validate each name every time.
             {topic: self.handle.get_count_publishers(topic) for topic in self._command_topics},
         )
         if peers != self._peers:
@@ -317,6 +317,6 @@ class HumanoidNode(Node):
             self._ground_truth.peers(*peers)
 
     def _read_clock(self) -> None:
-        """Stamp the messages: system clock."""
+        """Set the stamp that all messages share to the system clock plus `clock_offset`."""
         now = self.get_clock().now().nanoseconds + self.clock_offset
         self._stamp.sec, self._stamp.nanosec = divmod(now, 10**9)

@@ -1,4 +1,4 @@
-"""The command line of the robot, as a value."""
+"""The options of the robot, and their command line."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ class RobotOptions:
     """How to run the robot.
 
     Attributes:
-        rtf: simulated seconds a second; 0: as fast as it can.
+        rtf: real-time factor, simulated seconds per second; 0: as fast as possible.
         namespace: of the node.
         view: show it in a browser, served at `port` (0: the first free from 8080 on).
-        scene, crouch, seed: which humanoid stands where, how, and with which noise.
+        scene, crouch, seed: the scene, whether the robot begins in a crouch, and the seed of the sensors' noise.
         ground_truth_fd, control_fd: descriptors of the arena's pipes; with control_fd the robot is graded and /sim is
             absent.
-        battery_sensor_unplugged, joint_sensors_unplugged, robot_state_unpublished: faults at the start.
-        postures: write the whole posture to the ground truth, too, for a recording.
+        battery_sensor_unplugged, joint_sensors_unplugged, robot_state_unpublished: faults present from the start.
+        postures: also write the whole posture to the ground truth, for a recording.
         may_rest: physics is not integrated while the robot stands still without a command.
     """
 
@@ -42,7 +42,7 @@ class RobotOptions:
 
 
 def parse_options(arguments: Sequence[str] | None = None) -> RobotOptions:
-    """Read the options from a command line, by default this process's; a wrong one ends it with a message."""
+    """Parse a command line, by default that of this process; invalid options end the process with a message."""
     return RobotOptions(**vars(_parser().parse_args(arguments)))
 
 
@@ -52,12 +52,12 @@ def _parser() -> argparse.ArgumentParser:
         "--rtf",
         type=_factor,
         default=1.0,
-        help="simulated seconds per second; 0: as fast as it can (default 1)",
+        help="simulated seconds per second; 0: as fast as possible (default 1)",
     )
     parser.add_argument("--namespace", default="/robot", help="ROS namespace (default /robot)")
     parser.add_argument("--view", action="store_true", help="show the robot in a browser on this machine")
     parser.add_argument(
-        "--port", type=int, default=0, help="of the view (default: the first free from 8080 on)"
+        "--port", type=int, default=0, help="port of the view (default: the first free one from 8080 on)"
     )
     parser.add_argument("--scene", choices=tuple(SCENES), default="flat")
     parser.add_argument("--crouch", action="store_true", help="begin in a crouch instead of standing")

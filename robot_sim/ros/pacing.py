@@ -1,4 +1,4 @@
-"""The pace of simulated time against the system clock."""
+"""Keeps simulated time in step with the system clock."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ import time
 class Pacing:
     """A comparison of simulated time with the system clock.
 
-    `real_time_factor` is simulated seconds per second of `time.monotonic()`; 0 means as fast as it can. A
-    simulation that is behind by more than `MAX_LAG` s drops the lag, so that the robot does not race after the
+    `real_time_factor` is simulated seconds per second of `time.monotonic()`; 0 means as fast as possible. A lag of
+    more than `MAX_LAG` s is dropped, so that the simulation does not run at full speed to catch up after the
     machine was suspended.
 
     Attributes:
-        dropped: the lag it has dropped so far, s.
+        dropped: the lag that was dropped so far, s.
     """
 
     MAX_LAG = 1.0
@@ -27,7 +27,7 @@ class Pacing:
         self.restart(0.0)
 
     def restart(self, simulated: float) -> None:
-        """Count from now, at simulated time `simulated` (s)."""
+        """Restart the comparison: simulated time `simulated` (s) is due now."""
         self._origin = time.monotonic()
         self._simulated_origin = simulated
 
@@ -44,7 +44,7 @@ class Pacing:
         return lag
 
     def take_worst_lag(self) -> float:
-        """Return the greatest lag (simulated s, at least 0) since the last call, dropped ones included."""
+        """Return the greatest lag (simulated s, at least 0) since the last call, including dropped lags."""
         worst, self._worst_lag = self._worst_lag, 0.0
         return worst
 

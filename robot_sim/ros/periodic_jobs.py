@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-TOLERANCE = 1e-6  # s: sums of timesteps and of periods that mean the same time differ in their last digits
+TOLERANCE = 1e-6  # s; a sum of timesteps and a sum of periods can be the same time, but differ by rounding
 
 
 class PeriodicJobs:
-    """Jobs, each called at a rate (Hz) of simulated time; a late call is made once, missed ones never.
+    """Jobs, each called at a rate (Hz) in simulated time; after a delay a job is called once, not once per period.
 
-    If time has gone back, as at a reset, every job is due at once.
+    If time goes back, as at a reset, every job is due at once.
 
     Attributes:
         next_due: simulated time (s) at which the next job is due.

@@ -16,15 +16,15 @@ from robot_sim.ros.periodic_jobs import TOLERANCE, PeriodicJobs
 from robot_sim.ros.scenario_control import ScenarioControl, apply_command
 from robot_sim.ros.services import Services
 
-if TYPE_CHECKING:  # no arena needs them
+if TYPE_CHECKING:  # arenas need neither of these modules
     from robot_sim.ros.sim_controls import SimControls
     from robot_sim.views.web_view import WebView
 
-LONGEST_CYCLE = 0.02  # s of physics between two looks at the commands, or less if a message is due
-CATCH_UP_CYCLES = 6  # commands are processed at the latest after this many cycles without a wait
-PAUSE_PERIOD = 0.02  # s between two looks at the commands while the simulation stands still
-SERVICE_RATE = 20.0  # Hz, simulated: answers to requests
-REST_RATE = 1.0  # Hz, simulated: turns of the executor, which cost forty times as much
+LONGEST_CYCLE = 0.02  # s of physics in a cycle; a cycle is shorter if a message is due
+CATCH_UP_CYCLES = 6  # after at most this many cycles without a wait, commands are processed
+PAUSE_PERIOD = 0.02  # s between two cycles while the simulation is paused
+SERVICE_RATE = 20.0  # Hz, simulated, of answering requests
+EXECUTOR_RATE = 1.0  # Hz, simulated, of spinning the executor, which takes forty times as long
 
 
 def run(
@@ -44,18 +44,18 @@ def run(
         humanoid: the simulated robot.
         node: its ROS node.
         pacing: keeps simulated time in step with the system clock.
-        is_running: called in every cycle.
+        is_running: called in every cycle; False ends the simulation.
         ground_truth: writes the ground truth at 50 Hz of simulated time.
         control: reads the commands of a scenario; only for a graded robot.
         controls: the services under /sim; only for a robot that is not graded.
         view: shows the robot in a browser.
     """
     services = Services(node)
-    jobs = [(SERVICE_RATE, services.answer_requests), (REST_RATE, services.spin_executor)]
+    jobs = [(SERVICE_RATE, services.answer_requests), (EXECUTOR_RATE, services.spin_executor)]
     if ground_truth:
         jobs.insert(0, (GROUND_TRUTH_RATE, lambda: ground_truth.robot(humanoid, pacing.take_worst_lag())))
     chores = PeriodicJobs(*jobs)
-    gc.freeze()  # present objects live until the end; without freeze each collection would scan them for milliseconds
+    gc.freeze()  # otherwise each garbage collection would scan the present objects, which live until the end
     cycles_since_wait = 0
     if ground_truth:
         ground_truth.ready()
@@ -63,7 +63,7 @@ def run(
     while is_running():
         if control:
             for command in control.commands():
-                pacing.lag(humanoid.time)  # noted before it is dropped
+                pacing.lag(humanoid.time)  # record the lag, because restart() drops it
                 apply_command(command, humanoid, node, ground_truth)
                 pacing.restart(humanoid.time)
                 if ground_truth:
@@ -96,6 +96,6 @@ def run(
 
 
 def _steps_until(due: float, humanoid: Humanoid) -> int:
-    """Return how many steps to make until simulated time `due` (s), or until commands are to be processed."""
+    """Return the number of timesteps until simulated time `due` (s), at most LONGEST_CYCLE."""
     seconds = min(due - humanoid.time, LONGEST_CYCLE)
     return max(1, math.ceil((seconds - TOLERANCE) / humanoid.timestep))

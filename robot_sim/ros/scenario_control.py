@@ -45,7 +45,7 @@ class ScenarioControl:
 def apply_command(
     command: dict, humanoid: Humanoid, node: HumanoidNode, ground_truth: GroundTruthWriter | None = None
 ) -> None:
-    """Carry out one command; what it asks about goes to `ground_truth`.
+    """Execute one command; a command to report something writes it to `ground_truth`.
 
     Raises:
         ValueError: the command is not known; the message lists the known ones.

@@ -1,4 +1,4 @@
-"""Serve the humanoid under ROS 2 in this process, which may be a fork of one that has built it."""
+"""Runs the humanoid under ROS 2 in this process, which may be a fork of a process that has built it."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ if TYPE_CHECKING:
 __all__ = ["RobotOptions", "build_humanoid", "parse_options", "serve_robot"]
 
 CROUCH = 0.45  # m, height of the pelvis
-LONGEST_SETTLING = 10.0  # s, simulated, in which a robot that may rest comes to rest, if it can
+LONGEST_SETTLING = 10.0  # s, simulated; limit for simulating a robot that may rest until it rests
 
 
 def build_humanoid(options: RobotOptions, built: Humanoid | None = None) -> Humanoid:
-    """Reset `built` for these options if it stands in their scene, else build another humanoid.
+    """Reset `built` for these options if it has their scene, else build another humanoid.
 
     After a reset a humanoid behaves bit for bit like a new one, and a reset takes a tenth of the time. A humanoid that
-    may rest is simulated until it does.
+    may rest is simulated until it rests.
     """
     if built is None or built.scene != options.scene:
         built = Humanoid(options.scene, seed=options.seed)
@@ -48,14 +48,14 @@ def serve_robot(
     humanoid: Humanoid | None = None,
     is_running: Callable[[], bool] = lambda: True,
 ) -> None:
-    """Run the robot until SIGINT, SIGTERM, or until `is_running` says no; call it in the main thread.
+    """Run the robot until SIGINT, SIGTERM, or until `is_running` returns False; call it in the main thread.
 
-    Nothing of ROS may have been set up in this process or in one that it was forked from: the middleware's threads
+    Neither this process nor one from which it was forked may have initialized ROS before: the middleware's threads
     do not survive a fork.
 
     Args:
-        options: how to run it.
-        humanoid: what `build_humanoid` has made for these options, to be used as it is; made here unless given.
+        options: how to run the robot.
+        humanoid: the result of `build_humanoid` for these options; built here unless given.
         is_running: called in every cycle; False ends the robot.
     """
     signalled = False
@@ -64,7 +64,7 @@ def serve_robot(
         nonlocal signalled
         signalled = True
 
-    def goes_on() -> bool:
+    def should_run() -> bool:
         return not signalled and is_running()
 
     signal.signal(signal.SIGINT, stop)
@@ -97,7 +97,7 @@ def serve_robot(
             humanoid,
             node,
             pacing,
-            goes_on,
+            should_run,
             ground_truth=ground_truth,
             control=control,
             controls=controls,
@@ -116,12 +116,12 @@ def _open_view(humanoid: Humanoid, port: int) -> WebView:
     try:
         view = WebView(humanoid, port)
     except (ImportError, OSError) as error:
-        sys.exit(_why_there_is_no_view(error))
+        sys.exit(_view_error(error))
     print(f"view: {view.url}", flush=True)
     return view
 
 
-def _why_there_is_no_view(error: ImportError | OSError) -> str:
+def _view_error(error: ImportError | OSError) -> str:
     if isinstance(error, ImportError):
         return "course sim: the view needs MuJoCo 4, which needs Python 3.11 or newer"
     return f"course sim: the view could not be opened: {error}"

@@ -8,14 +8,14 @@ from typing import Any
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
-SHARE = 20  # answers take at most 1/SHARE of the robot's time
+PAUSE_FACTOR = 20  # after a request that took d s, the next one is taken 20·d s after its start
 
 
 class Services:
     """The services of a node, answered by regular calls of `answer_requests` instead of an executor.
 
-    An executor waits on all of a node's entities, some fifty, which costs forty times as much as taking a request from
-    each service. It still has to run at times for other events, such as an incompatible QoS (`spin_executor`).
+    An executor waits on all of a node's entities, some fifty, which takes forty times as long as taking a request from
+    each service. It still has to run at times to process other events, such as an incompatible QoS (`spin_executor`).
     """
 
     def __init__(self, node: Node) -> None:
@@ -25,7 +25,7 @@ class Services:
         self._rest_until = 0.0  # s of time.monotonic()
 
     def answer_requests(self) -> None:
-        """Answer at most one request of each service; after a long request the next calls do nothing for a while."""
+        """Answer at most one request of each service. After a long request, calls do nothing until a pause is over."""
         started = time.monotonic()
         if started < self._rest_until:
             return
@@ -36,11 +36,11 @@ class Services:
             if header is not None:
                 try:
                     service.send_response(service.callback(request, kind.Response()), header)
-                except Exception as error:  # an error in a request must not end the robot
+                except Exception as error:  # an error while answering a request must not end the robot
                     self._node.get_logger().error(
                         f"a request to {service.srv_name} was not answered: {error}"
                     )
-                self._rest_until = started + SHARE * (time.monotonic() - started)
+                self._rest_until = started + PAUSE_FACTOR * (time.monotonic() - started)
 
     def spin_executor(self) -> None:
         """Process the node's other events, such as those of its publishers."""

@@ -10,7 +10,7 @@ from robot_sim.state import Wrench
 
 
 class FootSensor:
-    """The force-torque sensor in a foot, which feels all that the foot touches."""
+    """The force-torque sensor in a foot, which measures the sum of all contacts of the foot."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, side: Side) -> None:
         self._model, self._data = model, data
@@ -26,7 +26,9 @@ class FootSensor:
         felt = np.empty((len(mine), 6))
         for row, contact in enumerate(mine.tolist()):
             mujoco.mj_contactForce(self._model, self._data, contact, felt[row])
-        felt[bodies[mine, 1] != self._foot] *= -1.0  # MuJoCo has the force on the second of the two that meet
+        felt[
+            bodies[mine, 1] != self._foot
+        ] *= -1.0  # MuJoCo returns the force on the second body of a contact
         axes = contacts.frame[mine].reshape(-1, 3, 3)
         forces = np.einsum("ci,cij->cj", felt[:, :3], axes)
         torques = np.einsum("ci,cij->cj", felt[:, 3:], axes)

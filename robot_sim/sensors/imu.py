@@ -16,15 +16,15 @@ class ImuParameters:
 
     gyro_bias: float = 0.002  # rad/s, drawn once for each seed
     gyro_noise: float = 0.001  # rad/s
-    accelerometer_bias: float = 0.05  # m/s², likewise
+    accelerometer_bias: float = 0.05  # m/s², drawn once for each seed
     accelerometer_noise: float = 0.02  # m/s²
 
 
 class Imu:
-    """Gyro, accelerometer and orientation, with the errors of a real sensor: noise, and a bias that stays.
+    """Gyro, accelerometer and orientation, with the errors of a real sensor: noise, and a constant bias.
 
-    The errors are a function of seed and time only: reading more or less often changes nothing. A bias is what
-    calibration finds while the robot stands: the mean of the gyro, and of the accelerometer less gravity.
+    The errors depend only on seed and time, so reading more or less often does not change them. A calibration finds the
+    biases while the robot stands: the mean of the gyro, and the mean of the accelerometer minus gravity.
 
     Attributes:
         gyro_bias: (3,) rad/s.

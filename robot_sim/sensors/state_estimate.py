@@ -16,27 +16,27 @@ UP = np.array([0.0, 0.0, 1.0])
 
 @dataclass(frozen=True, slots=True)
 class EstimateParameters:
-    """How much each sensor weighs in the estimate."""
+    """Thresholds of the estimate, and the weight of each sensor in it."""
 
-    contact_force: float = 30.0  # N; a foot that bears more stands still
+    contact_force: float = 30.0  # N; a foot with a higher load is assumed to stand still
     tilt_gain: float = 0.3  # 1/s, of the accelerometer's correction
     odometry_gain: float = 0.2  # of the velocity's error, each timestep
     anchor_gain: float = 0.1  # of the position's error, each timestep
-    still: float = 0.03  # rad/s; a slower gyro shows its bias
-    bias_time: float = 0.5  # s, to learn it
+    still: float = 0.03  # rad/s; below this rate the robot stands still, and the gyro measures only its bias
+    bias_time: float = 0.5  # s, time constant for learning the bias
 
 
 class StateEstimate:
     """An MjData with an estimated base and measured joints, for the controller to read instead of the true one.
 
-    Attitude: the gyro, less its bias, integrated; the accelerometer slowly corrects the tilt (R. Mahony, T. Hamel,
-    J.-M. Pflimlin, "Nonlinear complementary filters on the special orthogonal group", IEEE TAC 53, 2008). Nothing
-    corrects the heading, which drifts. Velocity: the accelerometer integrated, corrected by leg odometry: a foot that
-    bears load does not move. Position: the velocity integrated, corrected towards the places where the loaded feet
-    landed and, in height, towards a level floor.
+    Attitude: the gyro minus its bias is integrated, and the accelerometer slowly corrects the tilt (R. Mahony,
+    T. Hamel, J.-M. Pflimlin, "Nonlinear complementary filters on the special orthogonal group", IEEE TAC 53, 2008).
+    Nothing corrects the heading, so it drifts. Velocity: the accelerometer is integrated and corrected by leg odometry,
+    which assumes that a loaded foot does not move. Position: the velocity is integrated and corrected so that loaded
+    feet stay where they landed, on a level floor.
 
     Args:
-        model, data: the simulation, of which only encoders, touch sensors and IMU are read.
+        model, data: the simulation; only its encoders, touch sensors and IMU are read.
         imu: its inertial sensor.
 
     Attributes:
@@ -67,7 +67,7 @@ class StateEstimate:
         self._compute()
 
     def _loads(self) -> list[float]:
-        """Return the contact forces (N) of the feet; 0 for one that bears too little to stand still."""
+        """Return the contact forces (N) of the feet; 0 for a foot with too little load to be assumed still."""
         loads = [float(self._measured.sensordata[touch]) for touch in self._touches]
         return [load if load > self._parameters.contact_force else 0.0 for load in loads]
 
@@ -90,7 +90,7 @@ class StateEstimate:
         return velocity
 
     def _correct(self, velocity: np.ndarray, loads: list[float]) -> None:
-        """Correct velocity (m/s) and position of the base by the feet that stand, weighted by their load."""
+        """Correct velocity (m/s) and position of the base by the loaded feet, weighted by their load."""
         estimated, gains = self.data, self._parameters
         moved = np.zeros(3)
         for side, sole in zip(SIDES, self._soles, strict=True):
@@ -114,7 +114,7 @@ class StateEstimate:
             self._gyro_bias += dt / gains.bias_time * (rate - self._gyro_bias)
 
     def _compute(self) -> None:
-        """Compute all that the controller reads; kinematics (3 µs) again, because the correction moved the base."""
+        """Compute what the controller reads; repeat the kinematics (3 µs), because the correction moved the base."""
         model, estimated = self._model, self.data
         mujoco.mj_kinematics(model, estimated)
         mujoco.mj_comPos(model, estimated)

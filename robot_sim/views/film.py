@@ -1,4 +1,4 @@
-"""Moving pictures of the robot, as a file that browsers, notebooks and slides play: animated WebP."""
+"""Films of the robot as animated WebP, which browsers, notebooks and slides can play."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def film(
     camera: str = "track",
     each_step: Callable[[], object] = lambda: None,
 ) -> None:
-    """Simulate for `seconds` and write what is seen to `file`; `each_step` is called before every timestep.
+    """Simulate for `seconds` and write a film of it to `file`; `each_step` is called before every timestep.
 
     Raises:
         ValueError: the duration is not positive, or the model has no such camera.
@@ -46,7 +46,7 @@ def film(
 
 
 class Reel:
-    """Frames of one robot; `close()` it, because it holds an OpenGL context.
+    """A sequence of pictures of one robot; call `close()` at the end, because it holds an OpenGL context.
 
     Args:
         humanoid: the robot to film.
@@ -73,7 +73,7 @@ class Reel:
         self._frames: list[Image.Image] = []
 
     def add(self) -> None:
-        """Add the robot as it is now.
+        """Add a picture of the robot's present state.
 
         Raises:
             ValueError: the model has no such camera.
@@ -81,7 +81,7 @@ class Reel:
         self._frames.append(Image.fromarray(self._view.picture(self._camera)))
 
     def save(self, file: Path | str | BinaryIO) -> None:
-        """Write all frames, to be played again and again.
+        """Write all frames as a film that repeats.
 
         Raises:
             ValueError: there are none.
@@ -103,16 +103,16 @@ def save_frames(
     *,
     last: float = 0.0,
 ) -> None:
-    """Write frames as a moving picture that plays again and again.
+    """Write frames as a film that repeats.
 
     Args:
-        file: where to.
+        file: the file to write to.
         frames: at least one.
-        kind: "WEBP", or the larger and coarser "GIF", which older programs play, too.
+        kind: "WEBP", or "GIF", which is larger and coarser but which older programs can play, too.
         rate: frames a second.
         last: s by which the last frame is shown longer.
     """
-    if kind == "GIF":  # by octree, so that the few letters in red stay red
+    if kind == "GIF":  # octree quantization keeps the colour of the few red letters
         frames = [
             frame.quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE) for frame in frames
         ]

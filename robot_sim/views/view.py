@@ -12,7 +12,7 @@ from ros_runtime.workarounds.gl_backend import open_context
 
 
 def snapshot(humanoid: Humanoid, width: int = 640, height: int = 480, *, camera: str = "track") -> np.ndarray:
-    """Return one RGB picture (height, width, 3), uint8, of the robot where it is.
+    """Return one RGB picture (height, width, 3), uint8, of the robot's present state.
 
     Args:
         humanoid: the robot to draw.
@@ -32,12 +32,12 @@ def snapshot(humanoid: Humanoid, width: int = 640, height: int = 480, *, camera:
 
 
 class View:
-    """A renderer of one robot; `close()` it, because an open OpenGL context outlives its object.
+    """A renderer of one robot; call `close()` at the end, because an OpenGL context outlives its Python object.
 
     Args:
         humanoid: the robot to draw.
         width, height: of the pictures, px.
-        shadows: draw them; without a graphics card they take most of the time.
+        shadows: whether to draw shadows, which take most of the time without a graphics card.
 
     Raises:
         NoOpenGLError: this machine cannot draw.
@@ -59,7 +59,7 @@ class View:
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._renderer)
 
     def picture(self, camera: str = "track") -> np.ndarray:
-        """Draw the robot as it is now, RGB (height, width, 3), uint8, through one of the model's cameras.
+        """Draw the robot's present state through one of the model's cameras: RGB (height, width, 3), uint8.
 
         Raises:
             ValueError: the model has no such camera; the message lists its cameras.
@@ -80,7 +80,7 @@ class View:
         return pixels[::-1].copy()  # OpenGL's first row is the lowest
 
     def pixel_of(self, point: tuple[float, float, float]) -> tuple[float, float]:
-        """Where a point of the world (m) is in the last picture, px from its left and its upper edge."""
+        """Return the position of a point of the world (m) in the last picture, px from its left and upper edge."""
         eyes = self._scene.camera  # the left and the right one
         position, forward, up = (
             np.mean([getattr(eye, name) for eye in eyes], axis=0) for name in ("pos", "forward", "up")

@@ -1,4 +1,4 @@
-"""Lines of text over MuJoCo's web viewer, at the lower left; imported only where there is a viewer."""
+"""Lines of text over MuJoCo's web viewer, at the lower left; imported only if there is a viewer."""
 
 from __future__ import annotations
 
@@ -8,10 +8,8 @@ from mujoco.studio import messages, plugin
 from mujoco.studio.dear_imgui import dear_imgui as imgui
 
 MARGIN = 8.0  # px from the edges
-GROUND = (
-    "#16181d"  # the background, the same in the viewer's light and dark themes; the text's colours fit it
-)
-OPACITY = 0.8  # of the ground
+BACKGROUND = "#16181d"  # the same in the viewer's light and dark themes, because the text's colours are fixed
+OPACITY = 0.8  # of the background
 
 
 class WebText(plugin.ViewerPlugin):
@@ -30,7 +28,7 @@ class WebText(plugin.ViewerPlugin):
         corner = imgui.Vec2(MARGIN, imgui.GetIO().DisplaySize.y - MARGIN)
         imgui.SetNextWindowPos(corner, 0, imgui.Vec2(0.0, 1.0))  # of its own lower left corner
         imgui.SetNextWindowBgAlpha(OPACITY)
-        imgui.PushStyleColor(int(imgui.Col.WindowBg), _rgba(GROUND))
+        imgui.PushStyleColor(int(imgui.Col.WindowBg), _rgba(BACKGROUND))
         flags = imgui.WindowFlags
         imgui.Begin("text", flags=int(flags.NoDecoration) | int(flags.NoInputs) | int(flags.AlwaysAutoResize))
         for text, colour in lines:

@@ -10,9 +10,9 @@ from typing import Protocol
 
 import mujoco
 
-from ros_runtime.workarounds.mujoco_web_viewer import LOOPBACK, STARTED_WITHIN, launch_web_viewer
+from ros_runtime.workarounds.mujoco_web_viewer import LOOPBACK, START_TIMEOUT, launch_web_viewer
 
-FRAMES = 25.0  # a second, real
+FRAME_RATE = 25.0  # Hz, real time
 
 
 class Viewed(Protocol):
@@ -25,7 +25,7 @@ class Viewed(Protocol):
 class WebView:
     """Shows a robot at `url` while `show()` is called; `close()` ends it.
 
-    The browser draws; what leaves this process is the state, a few KB a frame. There is no password, so the view
+    The browser draws; this process sends only the state, a few KB a frame. There is no password, so the view
     can be reached from this machine only.
 
     Args:
@@ -38,12 +38,12 @@ class WebView:
     """
 
     def __init__(self, robot: Viewed, port: int = 0) -> None:
-        from robot_sim.views.web_text import WebText  # late: as the viewer, half a second
+        from robot_sim.views.web_text import WebText  # imported late, like the viewer: it takes half a second
 
         self._text = WebText()
         self._viewer, port = launch_web_viewer(port, _following_camera(robot.model), [self._text])
         self._robot = robot
-        # Copies, because the viewer lets its user drag, reset and load whatever it was given.
+        # Copies, because the viewer's user can drag and reset the model and load another one.
         self._model = copy.copy(robot.model)
         self._data = mujoco.MjData(self._model)
         self._viewer.set_model(self._model, data=self._data)
@@ -55,16 +55,16 @@ class WebView:
         """Send the present state when the next frame is due."""
         now = time.monotonic()
         if now >= self._next_frame:
-            self._next_frame = now + 1 / FRAMES
+            self._next_frame = now + 1 / FRAME_RATE
             mujoco.mj_copyData(self._data, self._model, self._robot.data)
             self._viewer.sync()
 
     def write(self, lines: Sequence[tuple[str, str]]) -> None:
-        """Write lines over the picture from now on, each with its colour, #rrggbb."""
+        """Show lines of text over the picture from now on, each with its colour, #rrggbb."""
         self._text.lines = lines
 
     def close(self) -> None:
-        """End the viewer."""
+        """Stop the viewer."""
         self._viewer.close()
 
 
@@ -79,7 +79,7 @@ def _following_camera(model: mujoco.MjModel) -> mujoco.MjvCamera:
 
 
 def _wait_for_the_server(port: int) -> None:
-    end = time.monotonic() + STARTED_WITHIN
+    end = time.monotonic() + START_TIMEOUT
     while True:
         try:
             return create_connection((LOOPBACK, port), timeout=1.0).close()

@@ -13,7 +13,7 @@ from robot_sim.model.side import SIDES
 from robot_sim.walking.balance_parameters import BalanceParameters
 from robot_sim.walking.planar import clamp
 
-UNLIMITED = 1e4  # N·m, more than any motion asks for
+UNLIMITED = 1e4  # N·m, more than any motion needs
 
 
 @dataclass(frozen=True)
@@ -49,11 +49,11 @@ class BalanceGains:
             )
 
     def roll_torque(self, error: float, rate: float) -> float:
-        """Return the torque (N·m) about the roll axis for a tilt error (rad) to remove and a rate (rad/s)."""
+        """Return the torque (N·m) about the roll axis that corrects a tilt error (rad), at this rate (rad/s)."""
         return clamp(self.kp_roll * error - self.kd_roll * rate, -self.max_torque, self.max_torque)
 
     def pitch_torque(self, error: float, rate: float) -> float:
-        """Return the torque (N·m) about the pitch axis for a tilt error (rad) to remove and a rate (rad/s)."""
+        """Return the torque (N·m) about the pitch axis that corrects a tilt error (rad), at this rate (rad/s)."""
         return clamp(self.kp_pitch * error - self.kd_pitch * rate, -self.max_torque, self.max_torque)
 
 

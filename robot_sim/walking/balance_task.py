@@ -9,9 +9,9 @@ from robot_sim.walking.swing import SwingReference
 
 
 class BalanceTask(NamedTuple):
-    """What the gait asks of the body for the next tick; world frame."""
+    """The task of the whole-body controller for the next tick; world frame."""
 
     cop: Point  # m, centre of pressure that moves the DCM as planned
     yaw: float  # rad, heading of the body
-    left_share: float | None = None  # of the load; None: as the CoP has it
+    left_share: float | None = None  # share of the load on the left foot; None: computed from the CoP
     swing: SwingReference | None = None  # of the foot in the air, if any

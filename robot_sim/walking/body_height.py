@@ -15,17 +15,17 @@ from robot_sim.walking.walker import Walker
 class HeightLimits:
     """How low the robot can crouch, and how fast it goes down and up."""
 
-    lowest: float = 0.45  # m, pelvis above the floor; lower, the ankles reach their stops
+    lowest: float = 0.45  # m, pelvis above the floor; below this, the ankles reach their stops
     speed: float = 0.15  # m/s
-    risen: float = 0.015  # m below the stance from which it may walk
+    risen: float = 0.015  # m below the stance's height, down to which it may walk
 
 
 class BodyHeight:
     """The controller of the pelvis' height; before walking it raises a crouching robot.
 
     Attributes:
-        rate: m/s, upwards, that the body is asked to move at.
-        change: the last one in phases, if any; while it goes on the rate is 0.
+        rate: commanded velocity of the body, m/s, upwards.
+        change: the last change of height in phases, if any; while it lasts, `rate` is 0.
     """
 
     def __init__(self, walker: Walker, size: Dimensions, limits: HeightLimits) -> None:
@@ -42,12 +42,12 @@ class BodyHeight:
 
     @property
     def is_idle(self) -> bool:
-        """Whether no motion is commanded, or it is done."""
-        goes = self.rate < 0 or (self.rate > 0 and self._walker.height < self._stance)
-        return not goes and (self.change is None or self.change.phase.is_last)
+        """Whether no motion is commanded, or the commanded motion has ended."""
+        moves = self.rate < 0 or (self.rate > 0 and self._walker.height < self._stance)
+        return not moves and (self.change is None or self.change.phase.is_last)
 
     def move(self, rate: float) -> None:
-        """Go up at `rate` (m/s; negative: down) until told otherwise, within the limits of height and speed.
+        """Move up at `rate` (m/s; negative: down) until the next command, within the limits of height and speed.
 
         Raises:
             ValueError: the rate is not finite.
@@ -58,11 +58,11 @@ class BodyHeight:
         self.rate = clamp(rate, -self._limits.speed, self._limits.speed)
 
     def rise(self) -> None:
-        """Go up to the height of the stance."""
+        """Move up to the height of the stance."""
         self.move(self._limits.speed)
 
     def change_to(self, height: float) -> HeightChange:
-        """Go to a height (m), brought within the limits, in phases.
+        """Move to a height (m), clamped to the limits, in phases.
 
         Raises:
             ValueError: the height is not finite.
@@ -79,7 +79,7 @@ class BodyHeight:
             self.change.fail(problem)
 
     def set(self, height: float) -> None:
-        """Set the height (m) at once."""
+        """Set the height reference (m) at once, without a motion."""
         self._walker.height = self._within_limits(height)
 
     def tick(self, dt: float) -> None:

@@ -38,11 +38,11 @@ def contact_wrench(
     Man, and Cybernetics A 34(5), 2004.
 
     Args:
-        base_rows: the six generalized forces of the free joint that inverse dynamics leaves over: force (N)
-            in the world, moment (N·m) in and about base_link. Nothing but the floor can supply them.
-        sensed: the robot now.
+        base_rows: the six generalized forces of the free joint that the motion needs: force (N) in the world,
+            moment (N·m) in and about base_link. The joint has no motor, so only the floor can supply them.
+        sensed: the robot's present state.
         mass: of the robot, kg.
-        limits: load and friction; the force is brought within them.
+        limits: of load and friction; the force is clamped to them.
     """
     fx, fy, fz = base_rows[:3]
     weight = mass * GRAVITY
@@ -73,8 +73,8 @@ class LoadSplit:
     ) -> tuple[float, ...]:
         """Return the force (N) and moment (N·m) about the sole's centre, world frame; zeros for a foot without load.
 
-        Both CoPs have the same offset from their soles' centres: the one of the total CoP from the load-
-        weighted mean of the centres, and `shift` (m) of this foot.
+        The offset of the foot's CoP from its sole's centre is the offset of the total CoP from the load-weighted mean
+        of both centres, plus `shift` (m).
         """
         share = left_share if side is Side.LEFT else 1 - left_share
         if share < 1e-3:

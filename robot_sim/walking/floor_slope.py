@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class SlopeParameters:
-    """How the felt slope is filtered and bounded."""
+    """How the measured slope is filtered and bounded."""
 
     filter_time: float = 0.2  # s
-    level: float = 0.0175  # m/m; less is level
-    steepest: float = 0.09  # m/m; more is a foot on its edge
+    level: float = 0.0175  # m/m; smaller slopes count as level
+    steepest: float = 0.09  # m/m; a foot with a larger tilt stands on its edge
 
 
 class FloorSlope:
@@ -28,14 +28,14 @@ class FloorSlope:
         self._fresh = timestep / self._parameters.filter_time
         self._x = self._y = 0.0
 
-    def feel(self, sole: Sequence[float]) -> None:
-        """Take in the rotation matrix (row by row) of the sole that stands, for one timestep."""
+    def update(self, sole: Sequence[float]) -> None:
+        """Update the filter for one timestep with the rotation matrix (row by row) of the stance foot's sole."""
         normal_x, normal_y, normal_z = sole[2], sole[5], sole[8]
         self._x += self._fresh * (-normal_x / normal_z - self._x)
         self._y += self._fresh * (-normal_y / normal_z - self._y)
 
     def estimate(self) -> tuple[float, float]:
-        """Rise of the floor per m along x and y of the world."""
+        """Return the rise of the floor per m along x and y of the world."""
         steepness = math.hypot(self._x, self._y)
         if steepness < self._parameters.level:
             return 0.0, 0.0

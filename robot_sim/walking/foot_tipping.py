@@ -1,4 +1,4 @@
-"""The reaction to a foot that tips over the edge of something it stands on, such as a bump."""
+"""The reaction to a foot that tips over an edge on which it stands, such as that of a bump."""
 
 from __future__ import annotations
 

@@ -43,8 +43,8 @@ def plan_footsteps(
 ) -> list[Footstep]:
     """Return the next `gait.planned_steps` footsteps, the first one by the foot that is not `stance_side`.
 
-    The centre of the body (half the feet's width inward of the stance foot) is moved as the command wants, as
-    far as the limits of a step allow; the swing foot lands half the width outward of the centre.
+    The centre of the body (half the feet's width inward of the stance foot) is moved as commanded, within the
+    limits of a step. The swing foot lands half the width outward of the new centre.
     """
     footsteps = []
     outward = stance_side.other.sign  # the swing foot's
@@ -74,7 +74,7 @@ def plan_footsteps(
 def _towards_goal(
     goal: Goal, x: float, y: float, yaw: float, gait: GaitParameters
 ) -> tuple[float, float, float]:
-    """Displacement (forward, left, turn) wanted of a body centre; a far goal is faced, then approached."""
+    """Return the displacement (forward, left, turn) of the body's centre; the robot turns to a far goal first."""
     dx, dy = goal.x - x, goal.y - y
     distance = math.hypot(dx, dy)
     forward = math.cos(yaw) * dx + math.sin(yaw) * dy
@@ -91,10 +91,10 @@ def _towards_goal(
 def _at_velocity(
     velocity: Velocity, outward: float, gait: GaitParameters, limits: StepLimits
 ) -> tuple[float, float, float]:
-    """Displacement (forward, left, turn) of one step so that two steps together keep the velocity.
+    """Return the displacement (forward, left, turn) of one step, such that two steps together keep the velocity.
 
-    A foot moves farther outward than inward, so the inward step gives what it may and the outward one the
-    rest.
+    A foot can move farther outward than inward. So the inward step moves up to its limit, and the outward step
+    makes up for the rest.
     """
     left = _share_of_pair(velocity.vy * gait.duration, outward, limits.inward)
     turn = _share_of_pair(velocity.wz * gait.duration, outward, limits.turn_inward)

@@ -31,7 +31,7 @@ class Gait:
     Attributes:
         phase: what the feet are doing.
         steps: touchdowns so far.
-        goal_reached: the last Goal was walked to and nothing was asked since.
+        goal_reached: the last Goal was reached and no command has come since.
     """
 
     def __init__(self, parameters: WalkerParameters) -> None:
@@ -61,15 +61,15 @@ class Gait:
 
     @property
     def is_idle(self) -> bool:
-        """Whether no command is left to do."""
+        """Whether there is no command and no step in progress."""
         return self._command is None and self._step is None
 
     def update(self, sensed: Sensing, cop_shift: tuple[float, float], dt: float) -> BalanceTask:
         """Advance by one tick.
 
         Args:
-            sensed: the robot now.
-            cop_shift: offset (m) of the CoP the whole body last produced from the one it was asked for.
+            sensed: the robot's present state.
+            cop_shift: offset (m) between the CoP that the whole-body controller last produced and the CoP of its task.
             dt: length of the tick, s.
         """
         if self._step is not None and self._step.has_landed(sensed):
@@ -108,7 +108,7 @@ class Gait:
         return BalanceTask(self._support.between_feet(cop, sensed, cop_shift), yaw)
 
     def _leave_stand(self, sensed: Sensing) -> None:
-        """Begin to walk when asked to."""
+        """Begin to walk if there is a command."""
         if self._arrived(sensed):
             self._command, self.goal_reached = None, True
         if self._command is not None:
@@ -117,7 +117,7 @@ class Gait:
             self._plan(sensed)
 
     def _catch_push(self, sensed: Sensing) -> None:
-        """Step at once when a push has lifted a foot or carried the DCM too far to hold it with both feet."""
+        """Begin a step at once if a push has lifted a foot or moved the DCM too far to hold it with both feet."""
         gait = self._gait
         lifted = self._lifted_foot(sensed)
         forward, left = Frame(*sensed.feet_centre).local(*sensed.dcm)
@@ -169,7 +169,7 @@ class Gait:
         return self._step
 
     def _touch_down(self, side: Side, sensed: Sensing) -> None:
-        """Take the foot of `side` as landed: end the walk if nothing is left to do, else take another step."""
+        """Handle the landing of a foot: stand if there is no command left and it is safe, else begin another step."""
         self.steps += 1
         self._stance_side = side
         arrived = self._arrived(sensed)

@@ -1,4 +1,4 @@
-"""The rhythm of the steps, how high and how far they go, and when a step begins and ends."""
+"""The timing of the steps, their height and length, and the conditions on which a step begins and ends."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class StepLimits:
 
 @dataclass(frozen=True, slots=True)
 class GaitParameters:
-    """Rhythm of the steps and the thresholds between standing, shifting and stepping."""
+    """Timing of the steps and the thresholds between standing, shifting and stepping."""
 
     duration: float = 0.44  # s, nominal length of a step
     double_support: float = 0.05  # s, at its start
@@ -39,22 +39,22 @@ class GaitParameters:
     shift_min_time: float = 0.10  # s
     shift_max_time: float = 1.00  # s
 
-    capture_duration: float = 0.28  # s, a step that catches a push
+    capture_duration: float = 0.28  # s, of a step that catches a push
     capture_double_support: float = 0.02  # s
-    capture_forward: float = 0.085  # m, DCM offset in standing that makes it step
+    capture_forward: float = 0.085  # m, DCM offset while standing above which such a step begins
     capture_sideways: float = 0.13  # m
 
-    lifted_height: float = 0.015  # m, a sole this high without load is put down by a step
+    lifted_height: float = 0.015  # m; a step puts down a foot without load whose sole is higher than this
 
     touchdown_force: float = 15.0  # N
-    touchdown_progress: float = 0.6  # of the swing; earlier contact is scuffing
-    freeze_landing: float = 0.9  # of the swing; later the landing is not moved
+    touchdown_progress: float = 0.6  # share of the swing; earlier contact does not count as touchdown
+    freeze_landing: float = 0.9  # share of the swing; later the landing is not moved
 
-    stand_dcm_forward: float = 0.07  # m, DCM offset at touchdown from which standing is safe
+    stand_dcm_forward: float = 0.07  # m, DCM offset at touchdown up to which standing is safe
     stand_dcm_sideways: float = 0.10  # m
     stand_feet_offset: float = 0.05  # m, fore-aft distance of the feet
     stand_feet_width: float = 0.06  # m, deviation from feet_width
 
     goal_tolerance: float = 0.02  # m
     goal_yaw_tolerance: float = 0.05  # rad
-    goal_facing_distance: float = 0.7  # m, farther goals are faced while walking
+    goal_facing_distance: float = 0.7  # m; the robot turns to a goal that is farther away

@@ -16,19 +16,19 @@ PEAK_OVER_MEAN = 15 / 8  # speed of a minimum-jerk motion
 class HeightChangeParameters:
     """Conditions that end the phases of crouching and standing up."""
 
-    balanced: float = 0.02  # m, DCM from the middle of the feet, to set out
-    least_load_share: float = 0.4  # of what both feet bear, on either, to set out
-    thrown: float = 0.05  # m, DCM from the middle of the feet; the weight has to be shifted again
-    near: float = 0.01  # m, from the height wanted, to settle
-    settled: float = 0.005  # m, from the height wanted
+    balanced: float = 0.02  # m, DCM from the middle of the feet, up to which the motion may start
+    least_load_share: float = 0.4  # share of the load that each foot must bear before the motion starts
+    thrown: float = 0.05  # m, DCM from the middle of the feet, above which the weight has to be shifted again
+    near: float = 0.01  # m from the target height, at which settling begins
+    settled: float = 0.005  # m from the target height, at which settling may end
     upright: float = 0.998  # z component of the pelvis' up-vector
     still: float = 0.02  # m/s
-    hold: float = 0.2  # s, that a condition has to last
-    patience: float = 12.0  # s, for all phases; the longest way takes 2 s
+    hold: float = 0.2  # s for which a condition has to hold
+    time_limit: float = 12.0  # s, for all phases; the longest motion takes 2 s
 
 
 class HeightPhase(Enum):
-    """The phase of a change of height; the values are words for a student's feedback."""
+    """The phase of a change of height; students can publish the values as feedback."""
 
     SHIFTING = "shifting"  # the weight comes to rest over the middle of both feet
     LOWERING = "lowering"
@@ -46,18 +46,19 @@ class HeightPhase(Enum):
 class HeightChange:
     """A motion of the pelvis to a height along a minimum-jerk profile.
 
-    T. Flash, N. Hogan, "The coordination of arm movements", Journal of Neuroscience 5(7), 1985. A push that carries the
-    weight away from the middle of the feet, or makes the robot step, takes it back to shifting; from there it goes on.
+    T. Flash, N. Hogan, "The coordination of arm movements", Journal of Neuroscience 5(7), 1985. If a push moves the
+    weight away from the middle of the feet, or makes the robot step, the phase returns to shifting and the motion
+    continues from there.
 
     Args:
         walker: whose state is measured.
         target: height (m) of the pelvis above the floor.
-        speed: of the profile at most, m/s.
+        speed: maximum of the profile, m/s.
 
     Attributes:
         phase: the present one.
-        problem: why it failed, in words, else "".
-        height: that the pelvis should have now, m.
+        problem: why the change failed, else "".
+        height: the commanded height of the pelvis now, m.
     """
 
     def __init__(self, walker: Walker, target: float, speed: float) -> None:
@@ -74,7 +75,7 @@ class HeightChange:
 
     @property
     def percent_complete(self) -> float:
-        """Share of the way that the pelvis has gone, 0 to 100, as measured; 100 only when it is done."""
+        """Measured share of the pelvis' way, 0 to 100; 100 only in the phase DONE."""
         if self.phase is HeightPhase.DONE:
             return 100.0
         way = self._target - self._first_height
@@ -89,10 +90,10 @@ class HeightChange:
             self.phase = HeightPhase.FAILED
 
     def tick(self, dt: float) -> None:
-        """Take in the state and move `height` for the next `dt` (s); not to be called once it has ended."""
+        """Update phase and `height` for the next `dt` (s) by the measured state; do not call it after the end."""
         self._time += dt
-        if self._time > self._parameters.patience:
-            self.fail(f"not done within {self._parameters.patience:g} s ({self._state()})")
+        if self._time > self._parameters.time_limit:
+            self.fail(f"not done within {self._parameters.time_limit:g} s ({self._state()})")
         elif self.phase is HeightPhase.SHIFTING:
             if self._lasts(self._is_balanced(), dt):
                 self._set_out()
@@ -102,7 +103,7 @@ class HeightChange:
             self._follow_profile(dt)
 
     def _set_out(self) -> None:
-        """Begin a profile from the height that is held now."""
+        """Begin a profile from the present height."""
         self._start, self._progress = self.height, 0.0
         way = self._target - self._start
         self._duration = PEAK_OVER_MEAN * abs(way) / self._speed
@@ -147,7 +148,7 @@ class HeightChange:
         return math.hypot(*self._sensed.base_velocity[:3])
 
     def _is_balanced(self) -> bool:
-        """Return whether both feet stand, bear about the same, and the weight rests between them."""
+        """Return whether both feet stand with about the same load and the DCM is near their middle."""
         loads = self._sensed.foot_loads
         even = min(loads) >= self._parameters.least_load_share * sum(loads) > 0
         return self._walker.stands and even and self._offset() < self._parameters.balanced

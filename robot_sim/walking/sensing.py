@@ -1,4 +1,4 @@
-"""What the walking controller senses, read once a tick into plain floats.
+"""The measured state for the walking controller, read once a tick into plain floats.
 
 Views of MuJoCo's arrays are made once and turned into lists in bulk: indexing NumPy arrays element by element
 costs more than the arithmetic done with the numbers.
@@ -17,11 +17,11 @@ from ros_runtime.angles import wrap
 
 
 class Sensing:
-    """The robot as its controller sees it, in the world frame.
+    """The robot's state as its controller reads it, in the world frame.
 
     Args:
-        data: the state it is in, true or estimated.
-        measured: has the touch sensors.
+        data: the true or estimated state.
+        measured: the true state, of which only the touch sensors are read.
 
     Attributes:
         com: centre of mass (x, y, z), m.
@@ -29,7 +29,7 @@ class Sensing:
         dcm: divergent component of motion (x, y), m: com + com_velocity / omega.
         omega: natural frequency of the linear inverted pendulum √(g/h), 1/s.
         ground: height of the floor under the supporting foot, m.
-        slope: rise of the floor per m along x and y, as the soles feel it.
+        slope: rise of the floor per m along x and y, measured by the soles.
         soles: centres of the two soles (x, y, z), m; left first.
         sole_rotations: their rotation matrices, row by row.
         foot_yaws: headings of the feet, rad.
@@ -55,7 +55,7 @@ class Sensing:
         self.read(swing_side=None)
 
     def read(self, swing_side: Side | None) -> None:
-        """Take in the present state; `swing_side` is the foot in the air, if any."""
+        """Read the present state; `swing_side` is the foot in the air, if any."""
         self.com = self._com.tolist()
         self.com_velocity = self._com_velocity.tolist()
         self.soles = self._soles.tolist()
@@ -71,7 +71,7 @@ class Sensing:
         if swing_side is not None:
             stance_side = swing_side.other
             self.ground = self.soles[stance_side][2]
-            self._slope.feel(self.sole_rotations[stance_side])
+            self._slope.update(self.sole_rotations[stance_side])
         self.slope = self._slope.estimate()
         self.omega = math.sqrt(GRAVITY / max(0.3, self.com[2] - self.ground))
         self.dcm = (

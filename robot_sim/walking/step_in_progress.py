@@ -15,12 +15,12 @@ from robot_sim.walking.swing import SwingReference, swing_reference
 from robot_sim.walking.walker_parameters import WalkerParameters
 from ros_runtime.angles import wrap
 
-SHORTEST_REMAINDER = 0.06  # s; a CoP that had to act faster would jump
-LAST_MOMENT = 0.05  # s; touchdown cannot be moved closer than this
-TIMING_PROGRESS = 0.8  # of the swing; later the touchdown time stays
-OVERDUE_SHARE = 1.4  # times the swing duration; after that the foot counts as landed
+SHORTEST_REMAINDER = 0.06  # s until touchdown with which the CoP is computed; with less it would jump
+SHORTEST_NOTICE = 0.05  # s from now to the earliest time to which touchdown can be moved
+TIMING_PROGRESS = 0.8  # share of the swing; later the touchdown time is fixed
+OVERDUE_SHARE = 1.4  # multiple of the swing duration; after that the foot counts as landed
 SAFE_LEVER = 0.005  # m, least distance of DCM and CoP for which the step's timing can be computed
-BEYOND_EDGE = -0.75  # of the sole's half-width
+BEYOND_OUTER_EDGE = -0.75  # half-widths of the sole; a DCM below this is beyond the stance foot's edge
 
 
 class StepInProgress:
@@ -30,7 +30,7 @@ class StepInProgress:
         stance_side: the foot that stands.
         duration: until touchdown, s; adapted on the way.
         double_support: at the beginning, s, while the load moves to the stance foot.
-        capture: the step catches a push, so it must not be prolonged.
+        capture: the step catches a push, so its duration must not increase.
     """
 
     def __init__(
@@ -58,7 +58,7 @@ class StepInProgress:
         self._lift_off_height = 0.0
 
     def aim(self, footsteps: Sequence[Footstep], dcm_at_touchdown: Point) -> None:
-        """Head for the first of `footsteps` with that DCM (m) at touchdown."""
+        """Set the first of `footsteps` as the target, with that DCM (m) at touchdown."""
         self.target = footsteps[0]
         if self.time == 0.0:
             self._landing = self.target
@@ -80,7 +80,7 @@ class StepInProgress:
         stance = Frame(x, y, sensed.foot_yaws[self.stance_side], self._outward)
         if self.time > self.double_support and self.progress < TIMING_PROGRESS:
             self._adapt_duration(sensed, stance, dt)
-        # The DCM changes feet in the middle of the double support that follows.
+        # The next stance foot takes over the DCM in the middle of the double support that follows.
         remaining = max(self.duration + self._parameters.gait.double_support / 2 - self.time, 0.0)
         cop = cop_to_reach(
             self.dcm_at_touchdown, sensed.dcm, sensed.omega, max(remaining, SHORTEST_REMAINDER)
@@ -100,31 +100,31 @@ class StepInProgress:
         return BalanceTask(cop, yaw, left_share, self._swing(sensed, dt))
 
     def _adapt_duration(self, sensed: Sensing, stance: Frame, dt: float) -> None:
-        """Move touchdown to when the lateral DCM arrives (Khadiv et al. 2016), at a limited rate.
+        """Move touchdown to the time when the lateral DCM reaches its goal (Khadiv et al. 2016), at a limited rate.
 
-        Lateral timing is what keeps the robot from falling sideways: landing cannot be moved inward of the
-        stance foot, so a DCM that arrives early must be met early.
+        This keeps the robot from falling sideways. The foot cannot land inward of the stance foot, so if the DCM
+        arrives early, the foot must land early.
         """
         gait = self._parameters.gait
         goal = stance.local(*self.dcm_at_touchdown)[1]
         dcm = stance.local(*sensed.dcm)[1]
         cop = self._cop_side
         rate = gait.timing_rate * dt
-        earliest = self.time + LAST_MOMENT
+        earliest = self.time + SHORTEST_NOTICE
         if dcm - cop > SAFE_LEVER and goal - cop > SAFE_LEVER:
             arrival = self.time + time_to_reach(goal, dcm, cop, sensed.omega) - gait.double_support / 2
             wanted = max(clamp(arrival, gait.min_duration, gait.max_duration), earliest)
             if self._out_of_reach:
                 wanted = min(wanted, self.duration)
             self.duration += clamp(wanted - self.duration, -rate, rate)
-        elif dcm < BEYOND_EDGE * self._half_width:
-            # The DCM left over the stance foot's outer edge: stand on the other foot at once and side-step.
+        elif dcm < BEYOND_OUTER_EDGE * self._half_width:
+            # The DCM has passed the stance foot's outer edge: land soon, and make a step to that side.
             self.duration = max(self.duration - rate, gait.min_duration, earliest)
 
     def _adapt_landing(self, sensed: Sensing, stance: Frame, cop: Point, remaining: float, dt: float) -> None:
         """Shift the landing by the error of the predicted DCM, so that the next step begins as planned.
 
-        Step adjustment as in Englsberger et al. 2015: the offset of foot and DCM at touchdown is kept.
+        As in Englsberger et al. 2015, this keeps the offset between foot and DCM at touchdown.
         """
         gait, limits = self._parameters.gait, self._parameters.steps
         x, y = self.target.x, self.target.y
@@ -140,7 +140,7 @@ class StepInProgress:
         self._out_of_reach = swinging and too_far
         if self._out_of_reach and self.progress < TIMING_PROGRESS:
             sooner = self.duration - gait.timing_rate * dt
-            self.duration = max(sooner, gait.min_duration, self.time + LAST_MOMENT)
+            self.duration = max(sooner, gait.min_duration, self.time + SHORTEST_NOTICE)
         if self.progress < gait.freeze_landing:
             x, y = stance.world(
                 clamp(forward, -limits.reach_backward, limits.reach_forward),
@@ -149,7 +149,7 @@ class StepInProgress:
             self._landing = Footstep(x, y, self.target.yaw)
 
     def _swing(self, sensed: Sensing, dt: float) -> SwingReference:
-        """Carry the swing foot on; the first call takes it off the floor."""
+        """Advance the swing foot by one tick; the first call lifts it off the floor."""
         if not self.in_swing:
             self.in_swing = True
             x, y, self._lift_off_height = sensed.soles[self.swing_side]

@@ -1,7 +1,7 @@
 """The limits within which the feet can produce a centre of pressure (CoP).
 
-Turning the body and swinging a leg also shift the CoP. The whole-body controller reports this `cop_shift`, and room
-for it is reserved first, so that the body stays upright even where balancing alone would use the whole sole.
+Turning the body and swinging a leg also shift the CoP. The whole-body controller reports this as `cop_shift`. The shift
+has priority: planned CoPs get the rest of the sole, so that the body stays upright.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ class Support:
         self.width = size.sole_half_width * balance.sole_width_share
 
     def on_sole(self, cop: Point, sole: Frame) -> Point:
-        """Return the CoP within a sole."""
+        """Return the nearest CoP within a sole."""
         return sole.clamped(cop[0], cop[1], self.length, self.width)
 
     def on_stance_foot(self, cop: Point, sole: Frame, cop_shift: Point) -> Point:
-        """Return the CoP within the one sole that stands, less the shift."""
+        """Return the nearest CoP within the stance foot's sole, with room for the shift."""
         shift_x, shift_y = sole.local(sole.x + cop_shift[0], sole.y + cop_shift[1])
         shift_x = clamp(shift_x, -self.length, self.length)
         shift_y = clamp(shift_y, -self.width, self.width)
@@ -36,14 +36,14 @@ class Support:
         )
 
     def in_transfer(self, cop: Point, sensed: Sensing, yaw: float, left_share: float) -> Point:
-        """Return the CoP within a sole's size around the point where a given split of the load puts it."""
+        """Return the nearest CoP within a sole's size around the point between the feet that fits the load split."""
         left, right = sensed.soles
         x = left_share * left[0] + (1 - left_share) * right[0]
         y = left_share * left[1] + (1 - left_share) * right[1]
         return self.on_sole(cop, Frame(x, y, yaw))
 
     def between_feet(self, cop: Point, sensed: Sensing, cop_shift: Point) -> Point:
-        """Return the CoP within a sole's size around the line between the feet, less the fore-aft shift."""
+        """Return the nearest CoP around the line between the feet, with room for the fore-aft shift."""
         left, right = sensed.soles
         line_x, line_y = left[0] - right[0], left[1] - right[1]
         share = left_share_of(cop, sensed)
@@ -57,7 +57,7 @@ class Support:
 
 
 def left_share_of(cop: Point, sensed: Sensing) -> float:
-    """Return the load (0 to 1) of the left foot for a CoP, by its projection on the line between the feet."""
+    """Return the left foot's share of the load (0 to 1) for a CoP, projected on the line between the feet."""
     left, right = sensed.soles
     line_x, line_y = left[0] - right[0], left[1] - right[1]
     along = (cop[0] - right[0]) * line_x + (cop[1] - right[1]) * line_y

@@ -24,7 +24,7 @@ class SwingReference(NamedTuple):
     slope: tuple[float, float]  # rise per m of the floor under it, along x and y
 
 
-PUSH_DOWN_SPEED = 0.3  # m/s, when the floor is later than expected
+PUSH_DOWN_SPEED = 0.3  # m/s, when touchdown is overdue
 
 
 def swing_reference(
@@ -41,9 +41,9 @@ def swing_reference(
 ) -> SwingReference:
     """Return the reference of a foot at `progress` (0 to 1) of its swing, which advances at `rate` (1/s).
 
-    Horizontally a quintic with zero speed and acceleration at both ends; vertically a bump of `step_height`
-    (m). A landing that moves while the foot is in the air bends the rest of the path. When touchdown is
-    `overdue` (s) the foot is pushed down until it meets the floor.
+    The horizontal path is a quintic with zero speed and acceleration at both ends, the vertical one a bump of
+    `step_height` (m). If the landing moves while the foot is in the air, the rest of the path bends. When touchdown is
+    `overdue` (s), the foot is pushed down until it touches the floor.
     """
     q = progress
     blend = q * q * q * (10 + q * (6 * q - 15))

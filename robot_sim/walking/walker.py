@@ -1,4 +1,4 @@
-"""The walking controller: sense, decide the gait, command the whole body."""
+"""The walking controller: read the state, update the gait, command the motors."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from robot_sim.walking.whole_body import WholeBody
 
 
 class Walker:
-    """The controller that balances and walks a humanoid; make a new one whenever the data's state was replaced.
+    """The controller that balances and walks a humanoid; make a new one whenever the state in `data` was replaced.
 
     Args:
-        data: whose motors and touch sensors are used.
-        state: what to act on; `data` itself unless the state is estimated.
+        data: the simulation, with the motors and touch sensors.
+        state: the state that the controller reads; `data` itself unless the state is estimated.
     """
 
     def __init__(

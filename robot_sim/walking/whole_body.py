@@ -1,11 +1,11 @@
-"""Whole-body control: leg torques that make the body and the swing foot accelerate as the gait wants.
+"""Whole-body control: computes leg torques that accelerate the body and the swing foot as the gait requires.
 
-Inverse dynamics of the floating base without an optimizer: the wanted accelerations of pelvis and feet fix
-those of the legs; M q̈ + h then gives the generalized forces; the rows of the base are what the floor must
-supply, and mapped through the feet's Jacobians they leave the torques of the legs. As the legs' and arms' own
-motion moves the centre of mass too, the base acceleration is corrected until the whole body's linear momentum
-changes as the inverted pendulum asks (linear momentum rate = contact force + weight; D. E. Orin, A. Goswami,
-S.-H. Lee, "Centroidal dynamics of a humanoid robot", Autonomous Robots 35, 2013).
+It is inverse dynamics of the floating base, without an optimizer. The accelerations required of pelvis and feet
+determine those of the legs. M q̈ + h then gives the generalized forces. The floor must supply the forces of the base;
+the feet's Jacobians map them to the legs, and the rest are the torques of the leg motors. The motion of legs and arms
+moves the centre of mass, too. So the base acceleration is corrected until the linear momentum of the whole body changes
+as the inverted pendulum requires (linear momentum rate = contact force + weight; D. E. Orin, A. Goswami, S.-H. Lee,
+"Centroidal dynamics of a humanoid robot", Autonomous Robots 35, 2013).
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ class WholeBody:
     """The controller that turns balance tasks into the torques of the twelve leg motors.
 
     Attributes:
-        cop_shift: low-pass filtered offset (m) of the CoP that was produced from the one asked for.
-        height: of the pelvis above the floor (m) that is held.
+        cop_shift: low-pass filtered offset (m) between the CoP that was produced and the CoP of the task.
+        height: commanded height of the pelvis above the floor, m.
         gains: how stiffly the trunk is held upright.
     """
 
@@ -72,7 +72,7 @@ class WholeBody:
         self._least_torque, self._most_torque = model.actuator_ctrlrange[motors].T.reshape(2, 2, 6)
         self._friction = model.dof_damping[legs].reshape(2, 6)
 
-        # Views of the arrays that are filled in each tick; what belongs to the legs has a row for each side.
+        # Views of the arrays that each tick fills; arrays of the legs have a row for each side.
         self._ctrl = ctrl[motors].reshape(2, 6)
         self._velocity, self._leg_velocity = data.qvel, data.qvel[legs].reshape(2, 6)
         self._bias = data.qfrc_bias
@@ -80,7 +80,7 @@ class WholeBody:
         self._halves = [(sole[:3], sole[3:]) for sole in self._jacobian]
         self._rows = self._jacobian.reshape(12, model.nv)
         self._base_jacobian = self._rows[:, base]
-        # Of each sole only the columns of its own leg, (2, 6, 6).
+        # For each sole, only the columns of its own leg: (2, 6, 6).
         self._leg_jacobian = np.einsum("sisj->sij", self._jacobian[:, :, legs].reshape(2, 6, 2, 6))
         self._acceleration = np.zeros(model.nv)
         self._base_acceleration, self._base_linear = self._acceleration[base], self._acceleration[linear]
@@ -108,7 +108,7 @@ class WholeBody:
         self._ctrl[:] = np.minimum(np.maximum(torque, self._least_torque), self._most_torque)
 
     def _compute_forces(self, task: BalanceTask, sensed: Sensing, dt: float) -> None:
-        """Compute the generalized forces of the motion that the task asks for, contact forces left out."""
+        """Compute the generalized forces of the task's motion, without contact forces."""
         for halves, sole in zip(self._halves, self._soles, strict=True):
             mujoco.mj_jacSite(self._model, self._data, *halves, sole)
         self._base_acceleration[:] = self._wanted_base_acceleration(task, sensed, dt)
@@ -128,15 +128,15 @@ class WholeBody:
             self._compute_forces_of_acceleration()
 
     def _compute_forces_of_acceleration(self) -> None:
-        """M q̈ + h of the accelerations noted so far; MuJoCo's product knows which elements of M are 0."""
+        """Compute M q̈ + h for the present accelerations; `mj_mulM` skips the elements of M that are 0."""
         mujoco.mj_mulM(self._model, self._data, self._forces, self._acceleration)
         self._forces += self._bias
 
     def _wanted_base_acceleration(self, task: BalanceTask, sensed: Sensing, dt: float) -> list[float]:
-        """Return the linear (m/s², world) and angular (rad/s², base_link) acceleration wanted of the base.
+        """Return the linear (m/s², world) and angular (rad/s², base_link) acceleration required of the base.
 
-        Horizontally the linear inverted pendulum: c̈ = ω² (c - p). Height and attitude are held by PD; the trunk
-        is an inverted pendulum too, whose topple the gains have to overcome.
+        Horizontally it is that of the linear inverted pendulum, c̈ = ω² (c - p). PD controllers hold height and
+        attitude. The trunk is an inverted pendulum, too, so the gains have to overcome its torque of gravity.
         """
         gains, trunk = self._balance, self._trunk
         stiffness = sensed.omega**2
@@ -166,7 +166,7 @@ class WholeBody:
         return self._yaw
 
     def _foot_acceleration(self, task: BalanceTask, sensed: Sensing) -> np.ndarray:
-        """Return the accelerations (2, 6) wanted of the soles, world frame: come to rest, or follow the swing."""
+        """Return the accelerations (2, 6) required of the soles, world frame: to stop, or to follow the swing."""
         velocity = (self._rows @ self._velocity).reshape(2, 6)
         self._sole_spin = velocity[:, 3:].tolist()
         acceleration = -self._balance.stance_damping * velocity
@@ -184,7 +184,7 @@ class WholeBody:
         rotation: list[float],
         velocity: list[float],
     ) -> list[float]:
-        """Feed-forward plus PD on the path and on a sole that lies as the floor does."""
+        """Return the acceleration of the swing sole: feed-forward, plus PD on its path and its tilt to the floor."""
         gains = self._balance
         linear = [
             feed_forward + gains.swing_stiffness * (goal - at) + gains.swing_damping * (goal_speed - speed)
@@ -201,16 +201,16 @@ class WholeBody:
         angular[2] += swing.yaw_acceleration + gains.swing_turn_damping * swing.yaw_rate
         return linear + angular
 
-    def _filter_cop_shift(self, produced: Point, asked: Point, dt: float) -> None:
+    def _filter_cop_shift(self, produced: Point, wanted: Point, dt: float) -> None:
         gains = self._balance
         fresh = 1 - gains.cop_shift_filter ** (dt / gains.cop_shift_period)
         x, y = self.cop_shift
         self.cop_shift = (
-            x + fresh * (produced[0] - asked[0] - x),
-            y + fresh * (produced[1] - asked[1] - y),
+            x + fresh * (produced[0] - wanted[0] - x),
+            y + fresh * (produced[1] - wanted[1] - y),
         )
 
 
 def _consecutive(indices: list[int]) -> slice:
-    """Return consecutive indices as a slice: a slice of an array is a view, a list makes a copy."""
+    """Return consecutive indices as a slice, because indexing with a slice gives a view, and with a list a copy."""
     return slice(indices[0], indices[-1] + 1)

@@ -1,1 +1,1 @@
-"""The verbs, one file a group; those of a group that need more have a file of their own."""
+"""The verbs: one file for each group, and separate files for long verbs."""

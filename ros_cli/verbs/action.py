@@ -1,4 +1,4 @@
-"""`ros2 action`: list, info; send_goal has a file of its own."""
+"""`ros2 action`: list and info; send_goal is in action_send_goal.py."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`ros2 action send_goal`: a goal, its feedback and its result; Ctrl-C cancels it."""
+"""`ros2 action send_goal`: sends a goal and prints its feedback and result; Ctrl-C cancels the goal."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ def add_to(verbs: Verbs) -> None:
 
 
 def send(options: Namespace) -> None:
-    """Send a goal and print what comes of it; Ctrl-C cancels it, and a second Ctrl-C ends the wait for its result.
+    """Send a goal and print its feedback and result; Ctrl-C cancels it, a second Ctrl-C ends the wait for its result.
 
     Raises:
-        CommandError: the type or the values are wrong, or the cancel was refused.
+        CommandError: the type or the values are wrong, or the server rejected the cancel request.
     """
     action_type = interface_class(options.action_type, "action")
     values = given_values(options)
@@ -69,17 +69,19 @@ def _wait_for_server(command: CommandNode, client: ActionClient, options: Namesp
 
 
 class _SentGoal:
-    """A goal under way."""
+    """A goal that was sent."""
 
     def __init__(self, command: CommandNode, client: ActionClient, goal: Any, *, feedback: bool) -> None:
         self._command = command
-        self._updates: SimpleQueue[Any] = SimpleQueue()  # feedback, and at last the future of the result
+        self._updates: SimpleQueue[Any] = (
+            SimpleQueue()
+        )  # feedback messages; the last item is the result's future
         on_feedback = self._updates.put if feedback else None
         self._answer: Future = command.run_in_spin(lambda: client.send_goal_async(goal, on_feedback))
         self._result: Future | None = None
 
     def follow(self) -> None:
-        """Print the server's answer, the feedback and the result, as they come, from where Ctrl-C interrupted it."""
+        """Print the server's answer, the feedback and the result as they arrive; a second call continues the first."""
         handle = self._command.result(self._answer)
         if not handle.accepted:
             print("Goal was rejected.")
@@ -98,7 +100,7 @@ class _SentGoal:
         """Cancel the goal, unless it was rejected or has ended.
 
         Raises:
-            CommandError: the server refused.
+            CommandError: the server rejected the cancel request.
         """
         handle = self._command.result(self._answer)
         if not handle.accepted or (self._result and self._result.done()):

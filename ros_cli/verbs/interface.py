@@ -35,17 +35,17 @@ def add_verbs(verbs: Verbs) -> None:
 
 
 def print_list(options: Namespace) -> None:
-    """Print all interfaces, or those of the kinds that are asked for."""
-    asked = {"msg": options.only_msgs, "srv": options.only_srvs, "action": options.only_actions}
+    """Print all interfaces, or only those of the requested kinds."""
+    requested = {"msg": options.only_msgs, "srv": options.only_srvs, "action": options.only_actions}
     for kind, title in TITLES.items():
-        if asked[kind] or not any(asked.values()):
+        if requested[kind] or not any(requested.values()):
             print(f"{title}:")
             for name in sorted(_installed(kind)):
                 print(f"    {name}")
 
 
 def print_definition(options: Namespace) -> None:
-    """Print a definition with the fields of its nested types, indented by tabs.
+    """Print a definition; the fields of nested types are indented by tabs.
 
     Raises:
         CommandError: there is no such interface.
@@ -84,7 +84,7 @@ def _file(name: str) -> Path:
     """Return the file that defines an interface.
 
     Raises:
-        CommandError: there is none.
+        CommandError: there is no such file.
     """
     parts = name.split("/")
     if len(parts) != 3 or parts[1] not in TITLES:
@@ -94,11 +94,11 @@ def _file(name: str) -> Path:
     package, kind, interface = parts
     folders = [share / package for share in _shares() if (share / package).is_dir()]
     if not folders:
-        raise CommandError(f"Unknown package '{package}': `interface list` shows what is installed")
+        raise CommandError(f"Unknown package '{package}': `interface list` shows the installed interfaces")
     for folder in folders:
         if (path := folder / kind / f"{interface}.{kind}").is_file():
             return path
-    raise CommandError(f"Could not find the interface '{name}': `interface list` shows those there are")
+    raise CommandError(f"Could not find the interface '{name}': `interface list` shows the installed ones")
 
 
 def _installed(kind: str) -> set[str]:

@@ -26,7 +26,7 @@ def add_verbs(verbs: Verbs) -> None:
 
 
 def print_info(options: Namespace) -> None:
-    """Print what a node subscribes to, publishes, serves and calls.
+    """Print a node's subscriptions, publishers, services and actions.
 
     Raises:
         CommandError: there is no such node.
@@ -64,7 +64,7 @@ def _names(command: CommandNode, options: Namespace) -> list[str]:
 
 
 def _endpoints(command: CommandNode, node: str, hidden: bool) -> dict[str, dict[str, list[str]]]:
-    """Return names and types of what a node has, by the titles under which they are printed."""
+    """Return names and types of a node's endpoints, by the titles under which they are printed."""
     name, namespace = split_name(node)
     ours = command.node
     found = {

@@ -18,7 +18,7 @@ from ros_cli.errors import CommandError, unknown
 from ros_cli.verb import Run, Verbs, add_flag, add_graph_verb, positive_float
 
 ANSWER_TIMEOUT = 5.0  # s
-# By the constants of rcl_interfaces/ParameterType, from 0 on.
+# The index is the constant in rcl_interfaces/ParameterType.
 TYPES = (
     *("not set", "boolean", "integer", "double", "string"),
     *("byte array", "boolean array", "integer array", "double array", "string array"),
@@ -44,7 +44,7 @@ def add_verbs(verbs: Verbs) -> None:
 
 
 def print_list(options: Namespace) -> None:
-    """Print the names of the parameters of one node, or of each.
+    """Print the names of the parameters of one node or of all nodes.
 
     Raises:
         CommandError: there is no such node.
@@ -72,7 +72,7 @@ def print_descriptions(options: Namespace) -> None:
             f"Not all of {', '.join(options.parameter_names)} are declared; `param list` shows those that are"
         )
     for descriptor in descriptors:
-        print(described(descriptor))
+        print(description_lines(descriptor))
 
 
 def print_value(options: Namespace) -> None:
@@ -85,9 +85,9 @@ def print_value(options: Namespace) -> None:
         response = command.result(client.get_parameters([options.parameter_name]))
     if not response.values:
         raise CommandError(
-            f"Parameter not set: {options.parameter_name!r}; `param list` shows those there are"
+            f"Parameter not set: {options.parameter_name!r}; `param list` shows the node's parameters"
         )
-    print(worded(response.values[0], with_label=not options.hide_type))
+    print(value_line(response.values[0], with_label=not options.hide_type))
 
 
 def set_parameter(options: Namespace) -> None:
@@ -119,7 +119,7 @@ def load_file(options: Namespace) -> None:
     """Set the parameters of a file, and print for each whether the node accepted it.
 
     Raises:
-        CommandError: there is no such node, or the file is no parameter file.
+        CommandError: there is no such node, or the file is not a parameter file.
     """
     parameters = _parameters_of(options.parameter_file)
     with _node_of(options) as (command, client):
@@ -129,7 +129,7 @@ def load_file(options: Namespace) -> None:
         _print_outcome(f"Set parameter {parameter.name} {outcome}", result)
 
 
-def worded(value: ParameterValue, *, with_label: bool = True) -> str:
+def value_line(value: ParameterValue, *, with_label: bool = True) -> str:
     """Return the line that `param get` prints for a value."""
     if value.type == ParameterType.PARAMETER_NOT_SET:
         return "Parameter not set." if with_label else "None"
@@ -138,7 +138,7 @@ def worded(value: ParameterValue, *, with_label: bool = True) -> str:
     return f"{kind.capitalize()} {'values are' if many else 'value is'}: {text}" if with_label else text
 
 
-def described(descriptor: ParameterDescriptor) -> str:
+def description_lines(descriptor: ParameterDescriptor) -> str:
     """Return the lines that `param describe` prints for a parameter."""
     lines = [f"Parameter name: {descriptor.name}", f"  Type: {TYPES[descriptor.type]}"]
     if descriptor.description:
@@ -156,7 +156,7 @@ def described(descriptor: ParameterDescriptor) -> str:
 
 
 def as_file(node: str, parameters: dict[str, Any]) -> str:
-    """Return parameters as the text of a parameter file; a dot in a name begins a level."""
+    """Return parameters as the text of a parameter file; each dot in a name begins a nested mapping."""
     tree: dict[str, Any] = {}
     for name, value in parameters.items():
         *levels, last = name.split(".")
@@ -207,7 +207,7 @@ def _client(command: CommandNode, node: str) -> AsyncParameterClient:
         if is_ready and command.wait_until_answering(node, ANSWER_TIMEOUT):
             return client
     raise CommandError(
-        f"Wait for service timed out waiting for parameter services for node {node}: it is not spun, or has none"
+        f"Wait for service timed out waiting for parameter services for node {node}: it has none or is not spinning"
     )
 
 
@@ -228,7 +228,7 @@ def _typed(text: str) -> ParameterValue:
     try:
         return get_parameter_value(string_value=text)
     except (yaml.YAMLError, AssertionError) as error:
-        raise CommandError(f"{text!r} is no value of a parameter: {error}") from error
+        raise CommandError(f"{text!r} is not a value for a parameter: {error}") from error
 
 
 def _parameters_of(path: str) -> Sequence[Parameter]:
@@ -236,7 +236,7 @@ def _parameters_of(path: str) -> Sequence[Parameter]:
         return list(parameter_dict_from_yaml_file(path, True).values())
     except (OSError, RuntimeError, TypeError, yaml.YAMLError) as error:
         raise CommandError(
-            f"{path} cannot be loaded: {error}; expected a file as `param dump` prints it"
+            f"{path} cannot be loaded: {error}; expected a file such as the output of `param dump`"
         ) from error
 
 

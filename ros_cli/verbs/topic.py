@@ -1,4 +1,4 @@
-"""`ros2 topic`: list, info, type; echo, hz and pub have files of their own."""
+"""`ros2 topic`: list, info and type; echo, hz and pub are in topic_echo.py, topic_hz.py and topic_pub.py."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def add_verbs(verbs: Verbs) -> None:
 
 
 def print_type(options: Namespace) -> None:
-    """Print the type of a topic, or each of them.
+    """Print the type of a topic, or all of its types.
 
     Raises:
         CommandError: there is no such topic.

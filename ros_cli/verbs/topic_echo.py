@@ -1,4 +1,4 @@
-"""`ros2 topic echo`: the messages of a topic as YAML."""
+"""`ros2 topic echo`: prints the messages of a topic as YAML."""
 
 from __future__ import annotations
 
@@ -44,12 +44,13 @@ def add_to(verbs: Verbs) -> None:
         echo.add_argument(
             f"--qos-{_kind(policy)}",
             choices=policy.short_keys(),
-            help=f"Quality of service {_kind(policy)} setting to subscribe with (default: what fits the publishers)",
+            help=f"Quality of service {_kind(policy)} setting to subscribe with "
+            "(default: one that is compatible with the publishers)",
         )
 
 
 def print_messages(options: Namespace) -> None:
-    """Print each message until Ctrl-C, the timeout, or, with --once, the first.
+    """Print each message until Ctrl-C or the timeout; with --once, only the first one.
 
     Raises:
         CommandError: the topic has no type yet, or its messages have no such field.
@@ -78,7 +79,7 @@ def print_messages(options: Namespace) -> None:
 
 
 def fitting_qos(publishers: list[TopicEndpointInfo]) -> QoSProfile:
-    """Return sensor QoS, with reliable and transient local if all publishers offer it; print if only some do."""
+    """Return sensor QoS, with reliable or transient local if all publishers offer it; print a line if only some do."""
     qos: QoSProfile = QoSPresetProfiles.get_from_short_key("sensor_data")
     for policy, wanted, otherwise in (
         ("reliability", ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT),
@@ -104,14 +105,14 @@ def select(message: Any, path: str | None) -> Any:
     for name in filter(None, (path or "").split(".")):
         if not is_message(message) or name not in message.get_fields_and_field_types():
             fields = message.get_fields_and_field_types() if is_message(message) else ()
-            there = f"there are {', '.join(fields)}" if fields else "a plain value has no fields"
-            raise CommandError(f"Invalid field '{path}': no field {name!r}; {there}")
+            known = f"the fields are {', '.join(fields)}" if fields else "a plain value has no fields"
+            raise CommandError(f"Invalid field '{path}': no field {name!r}; {known}")
         message = getattr(message, name)
     return message
 
 
 def as_text(value: Any, longest: int | None) -> str:
-    """Return a message as YAML, another value as Python prints it, each with a line's end."""
+    """Return a message as YAML and another value as Python prints it, with a newline at the end."""
     return message_to_yaml(value, longest=longest) if is_message(value) else f"{value}\n"
 
 

@@ -1,4 +1,4 @@
-"""`ros2 topic hz`: how often messages arrive."""
+"""`ros2 topic hz`: prints the rate at which messages arrive."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SECOND = 1e9  # ns
 
 
 class ArrivalRate:
-    """The rate over the last `window` intervals, worded once a second."""
+    """The rate over the last `window` intervals, as lines to print once a second."""
 
     def __init__(self, window: int = WINDOW) -> None:
         self._intervals: deque[int] = deque(maxlen=window)

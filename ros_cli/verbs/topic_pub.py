@@ -1,4 +1,4 @@
-"""`ros2 topic pub`: publish a message, once or at a rate."""
+"""`ros2 topic pub`: publishes a message once or at a rate."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ros_cli.verb import Verbs, add_graph_verb, add_values, given_values, natura
 from ros_cli.yaml_values import message_from_yaml
 
 QUEUE = 10  # messages; reliable, volatile
-REMINDER = 1.0  # s between two "Waiting for …" lines
+REMINDER_PERIOD = 1.0  # s between two "Waiting for …" lines
 LONGEST_DELIVERY = Duration(seconds=2)
 
 
@@ -61,10 +61,11 @@ def add_to(verbs: Verbs) -> None:
 
 
 def publish(options: Namespace) -> None:
-    """Publish until Ctrl-C, or as often as asked.
+    """Publish until Ctrl-C, or as often as --once or --times says.
 
     Raises:
-        CommandError: the type or the values are wrong, nothing is waited for, or too few subscriptions came in time.
+        CommandError: the type, the values or the combination of options is wrong, or too few subscriptions matched in
+            time.
     """
     message_type = interface_class(options.message_type, "msg")
     values = given_values(options)
@@ -95,7 +96,7 @@ def wait_for_subscriptions(
     """Wait until `wanted` subscriptions match; print a line every second.
 
     Raises:
-        CommandError: there are too few after --max-wait-time-secs.
+        CommandError: fewer subscriptions match after --max-wait-time-secs.
     """
     deadline = time.monotonic() + (options.max_wait_time_secs or float("inf"))
     while publisher.get_subscription_count() < wanted:
@@ -106,12 +107,12 @@ def wait_for_subscriptions(
                 f"`topic info -v {publisher.topic_name}` lists the subscriptions with their QoS"
             )
         print(f"Waiting for at least {wanted} matching subscription(s)...")
-        patience = min(REMINDER, max(0.0, deadline - time.monotonic()))
-        command.wait_until(lambda: publisher.get_subscription_count() >= wanted, patience)
+        timeout = min(REMINDER_PERIOD, max(0.0, deadline - time.monotonic()))
+        command.wait_until(lambda: publisher.get_subscription_count() >= wanted, timeout)
 
 
 def ticks(period: float, times: int) -> Iterator[int]:
-    """Yield 1, 2, 3, … at a period (s), the first at once; `times` of them, or without an end if it is 0."""
+    """Yield 1, 2, 3, … at a period (s), the first at once; stop after `times` numbers, never if `times` is 0."""
     began = time.monotonic()
     for number in count(1) if times == 0 else range(1, times + 1):
         time.sleep(max(0.0, began + (number - 1) * period - time.monotonic()))

@@ -1,4 +1,4 @@
-"""A drawing in three columns, as SVG: nodes, in the middle what connects them, one in each row, and nodes."""
+"""An SVG drawing in three columns: nodes on the left and on the right, and between them one connection in each row."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ TOP, MARGIN = 64, 12
 MIDDLE_X = MARGIN + NODE_WIDTH + GAP
 RIGHT_X = MIDDLE_X + MIDDLE_WIDTH + GAP
 WIDTH = RIGHT_X + NODE_WIDTH + MARGIN
-WHOLE, BROKEN = 'stroke="#333333"', 'stroke="#c0392b" stroke-dasharray="5 4"'
+SOLID_LINE, BROKEN_LINE = 'stroke="#333333"', 'stroke="#c0392b" stroke-dasharray="5 4"'
 SAND = "#fdf6e3"
 
 
@@ -28,7 +28,7 @@ class End:
 
 @dataclass(frozen=True)
 class Row:
-    """What is between nodes: its name, a word more about it, the nodes on both sides, and the colour of its box."""
+    """One connection: its name, a detail such as its type, the nodes on both sides, and the colour of its box."""
 
     name: str
     detail: str
@@ -75,7 +75,7 @@ def _line(x1: int, y1: int, x2: int, y2: int, broken: bool) -> str:
     middle = BOX_HEIGHT // 2
     return (
         f'<line x1="{x1}" y1="{y1 + middle}" x2="{x2}" y2="{y2 + middle}" stroke-width="1.5" '
-        f"{BROKEN if broken else WHOLE}/>"
+        f"{BROKEN_LINE if broken else SOLID_LINE}/>"
     )
 
 

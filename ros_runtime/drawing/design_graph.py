@@ -9,11 +9,11 @@ from ros_runtime.drawing.xml_text import shorten
 HEADINGS = ("publishes or asks", "pattern, type", "receives or answers")
 FILLS = {"topic": SAND, "service": "#e8f4ea", "action": "#e6eefb", "wire": "#eeeeee"}
 LONGEST_NODE, LONGEST_TYPE = 24, 56  # characters that fit into a box
-MOST_LINKS = 60  # links at most, so that the drawing stays readable
+MOST_LINKS = 60  # links that are drawn, so that the drawing stays readable
 
 
 def design_svg(design: Design, *, title: str) -> str:
-    """Draw the links of a design; the lines of one that lacks a fact are red and dashed.
+    """Draw the links of a design; a link that lacks a fact has red, dashed lines.
 
     Raises:
         ValueError: there is no link to draw.

@@ -16,14 +16,18 @@ ROW_HEIGHT = 30
 LEFT = 100
 TOP = 74
 BOTTOM = 20
-NOTE_GAP, LETTER = 10, 8  # px beside a note's dot, and at most for a letter of it
+NOTE_GAP = 10  # px between a note's dot and its text
+LETTER_WIDTH = 8  # px, of the widest letter
 COLOURS = {"request": "#1f5fa8", "answer": "#2c7a3f", "message": "#777777"}
 DASHES = {"request": "", "answer": ' stroke-dasharray="7 4"', "message": ' stroke-dasharray="2 3"'}
 
 
 @dataclass(frozen=True)
 class Arrow:
-    """A message: at `time` (s) `sender` sends `label` to `receiver`, or, under the same name, makes a note."""
+    """A message with the text `label` that `sender` sends to `receiver` at `time` (s).
+
+    An arrow from a participant to itself is drawn as a note.
+    """
 
     time: float
     sender: str
@@ -47,7 +51,9 @@ def sequence_svg(arrows: Sequence[Arrow], *, title: str, participants: Sequence[
         dict.fromkeys([*(participants or ()), *(name for a in ordered for name in (a.sender, a.receiver))])
     )
     centre = {name: LEFT + LANE_WIDTH // 2 + index * LANE_WIDTH for index, name in enumerate(lanes)}
-    notes = [centre[a.sender] + NOTE_GAP + LETTER * len(a.label) for a in ordered if a.sender == a.receiver]
+    notes = [
+        centre[a.sender] + NOTE_GAP + LETTER_WIDTH * len(a.label) for a in ordered if a.sender == a.receiver
+    ]
     width = max(LEFT + LANE_WIDTH * len(lanes), *notes, 0)
     height = TOP + ROW_HEIGHT * (len(ordered) + 1) + BOTTOM
     parts: list[str] = []

@@ -1,4 +1,4 @@
-"""The frame of every drawing: a white sheet that can be read on a dark page too, a title and a text alternative."""
+"""The frame of every drawing: a title, a text alternative, and a white background, which also suits a dark page."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from ros_runtime.drawing.xml_text import escape
 
 
 def svg(parts: Iterable[str], *, width: int, height: int, title: str, words: str) -> str:
-    """Put SVG elements on a sheet of so many pixels; `words` is the text alternative."""
+    """Return a drawing of `width` × `height` px with these SVG elements; `words` is the text alternative."""
     return "\n".join(
         [
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" role="img" '

@@ -1,4 +1,7 @@
-"""Texts in a drawing: students write some of them, and XML allows neither control characters nor lone surrogates."""
+"""Escapes and shortens the texts of a drawing.
+
+Students write some of these texts, and XML allows neither control characters nor lone surrogates.
+"""
 
 from __future__ import annotations
 
@@ -9,10 +12,10 @@ _NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")  
 
 
 def escape(text: str) -> str:
-    """Return a text as it stands in XML; a character that cannot stand there becomes U+FFFD."""
+    """Return a text escaped for XML; a character that XML does not allow becomes U+FFFD."""
     return html.escape(_NO_XML.sub("\ufffd", text))
 
 
 def shorten(text: str, most: int) -> str:
-    """Return a text of `most` characters at most; what is left out becomes "…"."""
+    """Return a text of at most `most` characters; "…" replaces what is left out."""
     return text if len(text) <= most else f"{text[: most - 1]}…"

@@ -1,4 +1,5 @@
 """Interface packages: read definitions, report what is wrong with them, build them, import the result.
 
-Set-up builds humanoid_interfaces with it, from its path; modules that set-up uses import only the standard library.
+The project's set-up loads some of these modules by their path to build humanoid_interfaces; those modules import only
+the standard library.
 """

@@ -1,7 +1,8 @@
 """Build definitions in a process of its own: `python -m ros_runtime.interface_build SOURCE OUT --name my_interfaces`.
 
-Prints JSON. Exit status 0: built, with the types and where they are. 1: not built, with the first of the
-problems found and how many more there are, or with the end of the build's output when the definitions looked sound.
+Prints JSON. Exit status 0: the package was built; the JSON has its types and its location. Exit status 1: it was not
+built; the JSON has the first problems and the number of others, or, if the definitions seem correct, the end of the
+build's output.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ def main() -> None:
     parser.add_argument("source", type=Path, help="folder with .msg, .srv and .action files")
     parser.add_argument("out", type=Path, help="folder for what is built")
     parser.add_argument("--name", required=True, help="the package's name, such as my_interfaces")
-    parser.add_argument("--processor-time", type=int, help="seconds that none of its processes may exceed")
+    parser.add_argument("--processor-time", type=int, help="limit of processor time for each process, in s")
     wanted = parser.parse_args()
     try:
         with limit_processor_time(wanted.processor_time):
@@ -56,7 +57,7 @@ def _report(package: BuiltPackage) -> dict[str, Any]:
 
 
 def _problems(problems: Sequence[Problem]) -> dict[str, Any]:
-    """Return what is wrong with definitions, in a few lines of readable length."""
+    """Return the first problems, with long texts shortened."""
     shown = [
         asdict(
             replace(

@@ -1,4 +1,4 @@
-"""What is wrong with a line of a definition, in plain words, and what was expected there."""
+"""Explains in plain words what is wrong with a line of a definition, and what was expected there."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from rosidl_adapter.parser import PRIMITIVE_TYPES, is_valid_constant_name, is_va
 
 from ros_runtime.interface_build.known_types import KnownTypes
 
-# Types that people write out of habit from Python, C++ or ROS 1, and the right ones.
-SPELLED = {
+# Types that people write out of habit from Python, C++ or ROS 1, and the correct types.
+FOREIGN_TYPES = {
     "float": "float64",
     "double": "float64",
     "real": "float64",
@@ -28,8 +28,8 @@ SPELLED = {
     "time": "builtin_interfaces/Time",
     "duration": "builtin_interfaces/Duration",
 }
-# Field names become members of C and C++ structures and attributes in Python.
-C_AND_CPP = """
+# Field names become members of C and C++ structures, so these words cannot be names.
+C_AND_CPP_KEYWORDS = """
     alignas alignof and asm auto bitand bitor bool break case catch char class compl const constexpr continue decltype
     default delete do double else enum explicit export extern false float for friend goto if inline int long mutable
     namespace new noexcept not nullptr operator or private protected public register restrict return short signed
@@ -47,7 +47,7 @@ class Finding(NamedTuple):
 
 def name_is_reserved(name: str) -> bool:
     """Return whether a field of this name would not compile, or could not be written as `message.name`."""
-    return name in C_AND_CPP.split() or keyword.iskeyword(name)
+    return name in C_AND_CPP_KEYWORDS.split() or keyword.iskeyword(name)
 
 
 def explain_line(text: str, complaint: str, known: KnownTypes) -> Finding:
@@ -62,7 +62,7 @@ def explain_line(text: str, complaint: str, known: KnownTypes) -> Finding:
     if ":" in type_name + name:
         return Finding("there is a colon, as in Python", "the type, a space, the name:  float64 speed")
     if not rest:
-        return Finding("there is one word", "two, a type and a name:  float64 speed")
+        return Finding("the line has only one word", "a type and a name:  float64 speed")
     if finding := _explain_spelling(type_name, known):
         return finding
     if equals and not is_valid_constant_name(name):
@@ -77,19 +77,23 @@ def explain_line(text: str, complaint: str, known: KnownTypes) -> Finding:
 
 
 def explain_type(field_type: Any, package: str, known: KnownTypes) -> Finding | None:
-    """Return why the build will not find the type of a correctly spelled field; None if it will."""
+    """Return why the build will not find the type of a correctly spelled field; None if it will find it."""
     if field_type.is_primitive_type():
-        return _explain_spelling(field_type.type, known) if field_type.type in SPELLED else None
+        return _explain_spelling(field_type.type, known) if field_type.type in FOREIGN_TYPES else None
     wanted, name = field_type.pkg_name, field_type.type
     if known.has(wanted, name):
         return None
     if wanted == package:
-        return Finding(f"{name} is neither a basic type nor a .msg of this package", _meant(name, known))
+        return Finding(
+            f"{name} is neither a basic type nor a .msg of this package", _probable_type(name, known)
+        )
     if wanted not in known.packages:
         similar = _similar(wanted, known.packages) or "a package that is installed, such as geometry_msgs"
         return Finding(f"there is no package {wanted} with messages", similar)
     here = _similar(name, known.packages[wanted])
-    return Finding(f"{wanted} has no message {name}", f"{wanted}/{here}" if here else _meant(name, known))
+    return Finding(
+        f"{wanted} has no message {name}", f"{wanted}/{here}" if here else _probable_type(name, known)
+    )
 
 
 def _explain_spelling(type_name: str, known: KnownTypes) -> Finding | None:
@@ -98,25 +102,26 @@ def _explain_spelling(type_name: str, known: KnownTypes) -> Finding | None:
     parts = bare.split("/")
     if bracket and not re.fullmatch(r"(<=)?\d*\]", size):
         return Finding(
-            f"[{size} is no size of an array",
-            "[] for any, [3] for three, [<=3] for at most three, after the type",
+            f"[{size} is not an array size",
+            "after the type: [] for any size, [3] for three, [<=3] for at most three",
         )
-    if bare in SPELLED:
-        return Finding(f"{bare} is no type of ROS 2", SPELLED[bare] + type_name[len(bare) :])
+    if bare in FOREIGN_TYPES:
+        return Finding(f"{bare} is not a type of ROS 2", FOREIGN_TYPES[bare] + type_name[len(bare) :])
     if len(parts) == 3:
         return Finding(
-            f"{bare} has a folder in the middle", f"{parts[0]}/{parts[2]}: a field is always a message"
+            f"{bare} has a folder in the middle",
+            f"{parts[0]}/{parts[2]}: the type of a field is always a message",
         )
     if len(parts) > 2 or "." in bare:
         words = re.split(r"[./]", bare)
-        return Finding(f"{bare} is no type", f"the package, a slash, the message:  {words[0]}/{words[-1]}")
+        return Finding(f"{bare} is not a type", f"the package, a slash, the message:  {words[0]}/{words[-1]}")
     if len(parts) == 1 and bare not in PRIMITIVE_TYPES and not bare.startswith(("string<=", "wstring<=")):
-        return Finding(f"{bare} is no basic type", _meant(bare, known))
+        return Finding(f"{bare} is not a basic type", _probable_type(bare, known))
     return None
 
 
-def _meant(name: str, known: KnownTypes) -> str:
-    """Return the type that was probably meant by `name`, which has no package or a wrong one."""
+def _probable_type(name: str, known: KnownTypes) -> str:
+    """Return the type that the student probably meant by `name`, which has no package or a wrong one."""
     if name.lower() in PRIMITIVE_TYPES:
         return name.lower()
     if packages := known.packages_with(name):
@@ -125,7 +130,7 @@ def _meant(name: str, known: KnownTypes) -> str:
 
 
 def _similar(word: str, words: Any) -> str:
-    """Return the word of `words` that was probably meant, or ""."""
+    """Return the word of `words` that is most similar to `word`, or ""."""
     return next(iter(get_close_matches(word, list(words), n=1, cutoff=0.75)), "")
 
 

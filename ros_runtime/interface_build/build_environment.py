@@ -49,11 +49,11 @@ def ros_build(environ: Mapping[str, str]) -> RosBuild:
 
 
 def _from_apt(environ: Mapping[str, str], prefixes: list[Path]) -> RosBuild:
-    """Return the sourced ROS, with the system's Python, which has the generators' requirements, as colcon uses it."""
+    """Return the sourced ROS with the system's Python, as colcon uses it: it has the generators' requirements."""
     environment = {
         name: value for name, value in environ.items() if name not in ("VIRTUAL_ENV", "PYTHONHOME")
     }
-    # CMake finds packages by this; a colcon workspace sets it, a sourced /opt/ros alone may not.
+    # CMake finds packages by this variable. A colcon workspace sets it; /opt/ros alone may not.
     environment["CMAKE_PREFIX_PATH"] = os.pathsep.join(
         [*map(str, prefixes), environ.get("CMAKE_PREFIX_PATH", "")]
     )
@@ -63,7 +63,7 @@ def _from_apt(environ: Mapping[str, str], prefixes: list[Path]) -> RosBuild:
 
 
 def _from_wheels(environ: Mapping[str, str]) -> RosBuild:
-    """Return the ROS of the wheels, which unpack a whole prefix around site-packages."""
+    """Return the ROS of the wheels, which install a whole prefix around site-packages."""
     generators = find_spec("rosidl_cmake")
     if generators is None or generators.origin is None:
         raise RuntimeError(
@@ -77,11 +77,11 @@ def _from_wheels(environ: Mapping[str, str]) -> RosBuild:
         **environ,
         "AMENT_PREFIX_PATH": str(prefix),
         "CMAKE_PREFIX_PATH": str(prefix),
-        # Only the wheels: the entry that pip adds for build isolation breaks the generators.
+        # Only the wheels: the entry that pip adds for build isolation would break the generators.
         "PYTHONPATH": str(site_packages),
         "LD_LIBRARY_PATH": os.pathsep.join(map(str, libraries)),
         "PATH": os.pathsep.join([str(prefix / "bin"), environ.get("PATH", os.defpath)]),
-        # The library path is set already: the wheels need not start Python a second time.
+        # The library path is set above, so the wheels need not start Python a second time to set it.
         "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",
     }
     return RosBuild(Path(sys.executable), environment, from_wheels=True)

@@ -1,4 +1,4 @@
-"""A time limit for a build, in processor time, which is the same on a busy machine and on a quiet one."""
+"""A limit of processor time for a build; unlike a time limit it does not depend on how busy the machine is."""
 
 from __future__ import annotations
 
@@ -8,24 +8,24 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, NoReturn
 
-ENOUGH = (
-    0.5  # share of the limit: the kernel kills by counted ticks but reports measured time, which can be less
-)
-GRACE = 5  # s between soft and hard limit, in which the process can still report the timeout
+# A failed build that used this share of the limit counts as too long: the kernel kills a process by its count of clock
+# ticks, and the time that it reports afterwards can be shorter.
+EXCEEDED_SHARE = 0.5
+REPORT_TIME = 5  # s between soft and hard limit, in which the process can still report that it was too long
 
 
 class BuildTooLong(BaseException):
     """A process of the build has reached its limit of processor time.
 
-    A BaseException, because code that it interrupts takes every Exception for a fault of the file.
+    A BaseException, because the interrupted code treats every Exception as a fault of the definition.
     """
 
 
 @contextmanager
 def limit_processor_time(seconds: int | None) -> Iterator[None]:
-    """Limit the processor time (s) of this process and of each that it starts; None: no limit.
+    """Limit the processor time (s) of this process and of each process that it starts; None: no limit.
 
-    The limit stays on this process.
+    The limit remains after the `with` block.
 
     Raises:
         BuildTooLong: the limit was reached.
@@ -34,15 +34,15 @@ def limit_processor_time(seconds: int | None) -> Iterator[None]:
         yield
         return
 
-    def give_up(*_: Any) -> NoReturn:
+    def raise_too_long(*_: Any) -> NoReturn:
         raise BuildTooLong(f"building it takes more than {seconds} s")
 
-    signal.signal(signal.SIGXCPU, give_up)
-    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + GRACE))
+    signal.signal(signal.SIGXCPU, raise_too_long)
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + REPORT_TIME))
     try:
         yield
     except RuntimeError:
         children = resource.getrusage(resource.RUSAGE_CHILDREN)
-        if children.ru_utime + children.ru_stime >= ENOUGH * seconds:
-            give_up()
+        if children.ru_utime + children.ru_stime >= EXCEEDED_SHARE * seconds:
+            raise_too_long()
         raise

@@ -1,4 +1,4 @@
-"""Build a ROS 2 interface package with CMake into a prefix, once per state of its sources."""
+"""Build a ROS 2 interface package with CMake into a prefix, unless the same sources have been built already."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _PLAIN_PATH = re.compile(r"[A-Za-z0-9._/+-]+")
 def built_prefix(
     source: Path, builds: Path, environ: Mapping[str, str], made_with: Sequence[Path] = ()
 ) -> Path:
-    """Return the folder under `builds` for the package built from `source` as it is now.
+    """Return the folder under `builds` for a build of the present files in `source`.
 
     `made_with` are further files that the build depends on, such as the lock file of the tools' versions.
     """
@@ -64,7 +64,7 @@ def build(source: Path, builds: Path, environ: Mapping[str, str], made_with: Seq
         )
         staged = Path(scratch, "prefix")
         _run_cmake(copied, Path(scratch, "cmake"), staged, ros_build(environ), builds / f"{source.name}.log")
-        # One rename at the end: an interrupted build leaves nothing that looks finished.
+        # The prefix appears by one rename at the end, so an interrupted build is never taken for a finished one.
         with tempfile.TemporaryDirectory(prefix=f"{source.name}-", dir=builds) as beside:
             os.replace(shutil.move(staged, beside), prefix)
     return prefix
@@ -74,14 +74,14 @@ def _plain_folder(builds: Path) -> Path:
     """Return `builds` or, if CMake cannot take its path, a folder for temporary files.
 
     Raises:
-        RuntimeError: there is none.
+        RuntimeError: there is no such folder.
     """
     for folder in (builds.resolve(), Path(tempfile.gettempdir()), Path("/tmp"), Path("/var/tmp")):
         if _PLAIN_PATH.fullmatch(str(folder)) and os.access(folder, os.W_OK):
             return folder
     raise RuntimeError(
-        f"CMake cannot build in {builds}, whose path has more than plain letters and digits, and there is no other "
-        "place: nothing can be written to /tmp.\nNext: move your folder to a path of plain letters and digits."
+        f"CMake cannot build in {builds}, whose path has more than plain letters and digits, and /tmp is not writable."
+        "\nNext: move your folder to a path of plain letters and digits."
     )
 
 
@@ -92,8 +92,8 @@ def _run_cmake(source: Path, binary_dir: Path, prefix: Path, ros: RosBuild, log:
         f"-DPYTHON_INSTALL_DIR={PYTHON_LIB}",
         f"-DPython3_EXECUTABLE={ros.python}",
         "-DBUILD_TESTING=OFF",
-        # The code copies fields between Python and C; optimising it buys nothing but compile time. Its assertions end
-        # the process where a field has another type.
+        # Without optimisation, which costs compile time and gains nothing: the code only copies fields between Python
+        # and C. Without assertions, which would end the process if a field has another type.
         *("-DCMAKE_BUILD_TYPE=None", "-DCMAKE_C_FLAGS=-O0 -DNDEBUG", "-DCMAKE_CXX_FLAGS=-O0 -DNDEBUG"),
     ]
     if ros.from_wheels:
@@ -113,7 +113,7 @@ def _run_cmake(source: Path, binary_dir: Path, prefix: Path, ros: RosBuild, log:
 
 
 def _plain_cmake(scratch: Path) -> str:
-    """Return the path of cmake, or of a copy if its own path has letters that it cannot handle."""
+    """Return the path of cmake, or of a copy of it if cmake cannot handle the characters in its own path."""
     package = find_spec("cmake")
     if package is None or package.origin is None:
         return "cmake"

@@ -15,10 +15,10 @@ from ros_runtime.interface_build.advice import Finding, explain_line, explain_ty
 from ros_runtime.interface_build.known_types import KnownTypes
 
 SEPARATOR = "---"
-# A file with more than this is no interface, and checking it line by line or building it would take forever.
+# A larger file is not a plausible interface, and checking or building it would take too long.
 LARGEST_FILE = 64 * 1024  # bytes
 MOST_LINES = 1000
-LONGEST_LINE = 500  # characters, a comment not counted
+LONGEST_LINE = 500  # characters, without its comment
 MOST_ELEMENTS = 100  # fields and constants
 PARTS = {"msg": ("message",), "srv": ("request", "response"), "action": ("goal", "result", "feedback")}
 
@@ -39,7 +39,7 @@ class Problem:
 
 
 class InvalidDefinitions(Exception):
-    """Definitions that cannot be built, with every problem found."""
+    """The definitions cannot be built; `problems` lists every problem found."""
 
     def __init__(self, problems: Sequence[Problem]) -> None:
         super().__init__("\n".join(map(str, problems)))
@@ -48,7 +48,10 @@ class InvalidDefinitions(Exception):
 
 @dataclass(frozen=True)
 class Part:
-    """One half of a service, one third of an action, or a whole message: name → ROS type, name → (type, value)."""
+    """A message, or a part of a service or action.
+
+    `fields` maps names to ROS types, `constants` maps names to (type, value).
+    """
 
     fields: dict[str, str] = field(default_factory=dict)
     constants: dict[str, tuple[str, Any]] = field(default_factory=dict)
@@ -69,7 +72,7 @@ def read_definitions(source: Path, package: str, known: KnownTypes) -> list[Defi
     """Read every definition in `source` and its folders msg/, srv/ and action/.
 
     Raises:
-        InvalidDefinitions: something is wrong with them; it holds every problem.
+        InvalidDefinitions: a definition cannot be built; the error lists every problem.
     """
     places = [place for kind in PARTS for place in (f"*.{kind}", f"{kind}/*.{kind}")]
     files = sorted(path for place in places for path in source.glob(place) if path.is_file())
@@ -81,17 +84,17 @@ def read_definitions(source: Path, package: str, known: KnownTypes) -> list[Defi
     known = known.with_package(package, {path.stem for path in files if path.suffix == ".msg"})
     readers = [_Reader(path, path.relative_to(source).as_posix(), package, known) for path in files]
     problems = [problem for reader in readers for problem in reader.problems]
-    problems += _twice(files)
+    problems += _duplicates(files)
     if problems:
         raise InvalidDefinitions(problems)
     return [reader.definition() for reader in readers]
 
 
-def _twice(files: Iterable[Path]) -> Iterator[Problem]:
+def _duplicates(files: Iterable[Path]) -> Iterator[Problem]:
     seen: set[str] = set()
     for path in files:
         if path.name in seen:
-            yield Problem(path.name, 0, "", "the folder has two files of this name", "one of them")
+            yield Problem(path.name, 0, "", "the folder has two files of this name", "only one of them")
         seen.add(path.name)
 
 
@@ -116,7 +119,7 @@ class _Reader:
             self._check_sections()
 
     def definition(self) -> Definition:
-        """Return the interface; call it if there is no problem."""
+        """Return the interface; call this only if there are no problems."""
         parts = dict(zip(PARTS[self._kind], self._sections, strict=True))
         return Definition(self._path, self._kind, self._path.stem, parts, frozenset(self._uses))
 
@@ -129,9 +132,7 @@ class _Reader:
         try:
             lines = self._path.read_text(encoding="utf-8").splitlines()
         except UnicodeDecodeError as error:
-            self._complain(
-                0, "", f"it is no text in UTF-8: {error.reason} at byte {error.start}", "plain text"
-            )
+            self._complain(0, "", f"it is not UTF-8 text: {error.reason} at byte {error.start}", "plain text")
             return []
         if len(lines) > MOST_LINES:
             self._complain(0, "", f"it has {len(lines):,} lines", f"at most {MOST_LINES:,}")
@@ -145,35 +146,35 @@ class _Reader:
             self._complain(number, text, f"the line has {len(text):,} characters", f"at most {LONGEST_LINE}")
         elif text and not text.strip("- "):
             wanted = f"a line that is exactly {SEPARATOR}, with nothing before and after it"
-            self._complain(number, line, "this is no separator", wanted)
+            self._complain(number, line, "this is not a separator", wanted)
         elif text:
             self._read_element(number, text)
 
     def _read_element(self, number: int, text: str) -> None:
-        """Read a field or a constant; rosidl's own parser decides, and its complaint is explained in plain words."""
+        """Read a field or a constant with rosidl's own parser, and explain its errors in plain words."""
         try:
             with redirect_stderr(io.StringIO()):
                 message = parse_message_string(self._package, "Line", text)
-        except Exception as error:  # it raises whatever came up: IndexError, TypeError, NameError, its own
+        except (
+            Exception
+        ) as error:  # besides its own errors the parser raises IndexError, TypeError and NameError
             self._complain(number, text, *explain_line(text, str(error), self._known))
             return
         for element in (*message.fields, *message.constants):
             if element.name in {**self._sections[-1].fields, **self._sections[-1].constants}:
-                self._complain(
-                    number, text, f"there is a {element.name} already in this part", "another name"
-                )
+                self._complain(number, text, f"this part already has a {element.name}", "another name")
             elif finding := self._build_fault(element):
                 self._complain(number, text, *finding)
             else:
                 self._keep(element)
 
     def _build_fault(self, element: Field | Constant) -> Finding | None:
-        """Return a fault that rosidl's parser accepts and the build does not."""
+        """Return a fault that rosidl's parser accepts but that makes the build fail; None without one."""
         if isinstance(element, Constant):
             return None
         if name_is_reserved(element.name):
             return Finding(
-                f"{element.name} is a word of C, C++ or Python, for which code is generated",
+                f"{element.name} is a keyword of C, C++ or Python, for which code is generated",
                 f"another name, such as {element.name}_value",
             )
         return explain_type(element.type, self._package, self._known)

@@ -1,6 +1,6 @@
-# The imported targets of the ROS wheels name include directories of the machine that made them
-# (/opt/python/...); CMake refuses imported targets whose directories do not exist.
-# The Python headers come from Python3_EXECUTABLE anyway, so dropping them loses nothing.
+# The imported targets of the ROS wheels name include directories of the machine on which the wheels were made
+# (/opt/python/...). CMake refuses imported targets whose directories do not exist, so these are dropped.
+# Only Python headers were there, and CMake finds them by Python3_EXECUTABLE anyway.
 
 function(drop_missing_include_directories)
   get_property(targets DIRECTORY PROPERTY IMPORTED_TARGETS)
@@ -19,5 +19,5 @@ function(drop_missing_include_directories)
   endforeach()
 endfunction()
 
-# The targets appear with find_package, after project(): look at them when the folder's list file ends.
+# find_package creates the targets after project(), so this runs at the end of the folder's CMakeLists.txt.
 cmake_language(DEFER CALL drop_missing_include_directories)

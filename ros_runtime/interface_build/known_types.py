@@ -1,4 +1,4 @@
-"""The message types that a definition can use: those of the packages which are installed."""
+"""The message types that a definition can use: those of the installed packages."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-# rclpy needs no code in C++: without it a build takes half the time. A package registers its generator when it is
-# found, and those of the dependencies come with them.
+# rclpy needs no C++ code, and a build without it takes half the time. find_package registers the generators of a
+# package and of its dependencies, so the C++ generators are removed from the list after each call.
 
 macro(find_package)
   _find_package(${ARGV})

@@ -1,4 +1,4 @@
-"""Makes a stock interface package of a folder of a student's definitions, builds it, and lets processes import it."""
+"""Turns a folder of a student's definitions into a stock interface package, builds it, and makes it importable."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ ament_package()
 
 @dataclass(frozen=True)
 class BuiltPackage:
-    """A package that can be imported; `is_new` says that it was built just now, in `seconds`."""
+    """A package that can be imported; `is_new` means that it was built just now; `seconds` is the time that it took."""
 
     name: str
     prefix: Path
@@ -77,16 +77,16 @@ class BuiltPackage:
         }
 
     def prefix_path(self, environ: Mapping[str, str]) -> str:
-        """Return AMENT_PREFIX_PATH for that environment, by which the `ros2` commands find the definitions."""
+        """Return AMENT_PREFIX_PATH for a process with that environment, so that `ros2` finds the definitions."""
         return self._put_first(self.prefix, environ.get("AMENT_PREFIX_PATH", ""))
 
     def is_importable_here(self) -> bool:
-        """Return whether this process can import it, which fails after an import of another build."""
+        """Return whether this process can import the package; it cannot if it has imported another build of it."""
         imported = getattr(sys.modules.get(self.name), "__file__", None)
         return imported is None or Path(imported).is_relative_to(self.prefix)
 
     def make_importable_here(self) -> None:
-        """Let this process import it."""
+        """Make the package importable in this process."""
         load_on_import(self.name, self.prefix / "lib")
         sys.path[:] = [str(self.prefix / PYTHON_LIB), *filter(self._is_no_other_build, sys.path)]
         importlib.invalidate_caches()
@@ -94,7 +94,7 @@ class BuiltPackage:
             self._forget_the_folder()
 
     def _forget_the_folder(self) -> None:
-        """Undo an import before the build, for which Python took the folder of definitions for a package."""
+        """Undo an earlier import, in which Python took the folder of definitions for a package."""
         for module in [each for each in sys.modules if each.partition(".")[0] == self.name]:
             del sys.modules[module]
 
@@ -110,11 +110,11 @@ class BuiltPackage:
 def build_package(source: Path, builds: Path, name: str) -> BuiltPackage:
     """Build the definitions in `source` as package `name` into a folder of its own below `builds`.
 
-    The same definitions are not built twice. Takes about five seconds on two cores for a service and an action.
+    The same definitions are not built twice. A build takes about five seconds on two cores for a service and an action.
 
     Raises:
-        InvalidDefinitions: naming file, line, what is wrong and what was expected.
-        RuntimeError: the build failed all the same; the message ends with its output.
+        InvalidDefinitions: it names file, line, what is wrong and what was expected.
+        RuntimeError: the definitions seem correct but the build failed; the message ends with its output.
     """
     started = time.monotonic()
     builds = builds.resolve()
@@ -133,7 +133,7 @@ def checked_definitions(source: Path, name: str, environ: Mapping[str, str]) -> 
     """Read the definitions in `source`, which are to become package `name`.
 
     Raises:
-        InvalidDefinitions: naming file, line, what is wrong and what was expected.
+        InvalidDefinitions: it names file, line, what is wrong and what was expected.
     """
     ros = ros_build(environ)
     prefixes = [Path(entry) for entry in ros.environment["AMENT_PREFIX_PATH"].split(os.pathsep) if entry]
@@ -142,7 +142,7 @@ def checked_definitions(source: Path, name: str, environ: Mapping[str, str]) -> 
 
 
 def write_package(folder: Path, name: str, definitions: Sequence[Definition]) -> None:
-    """Write package.xml, CMakeLists.txt and the definitions into `folder`, as colcon would build them, too."""
+    """Write package.xml, CMakeLists.txt and the definitions into `folder`; colcon could build it, too."""
     files = {f"{each.kind}/{each.file.name}": each.file for each in definitions}
     uses = sorted({"action_msgs", *(package for each in definitions for package in each.uses)} - {name})
     for place, file in files.items():
@@ -161,7 +161,7 @@ def write_package(folder: Path, name: str, definitions: Sequence[Definition]) ->
 
 
 def without_packages_in(builds: Path, environ: Mapping[str, str]) -> dict[str, str]:
-    """Return the environment without the packages in `builds`: they are no part of the ROS that a build uses."""
+    """Return the environment without the packages in `builds`, which are not part of the ROS that a build uses."""
     entries = environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
     others = [entry for entry in entries if entry and not Path(entry).is_relative_to(builds)]
     return {**environ, "AMENT_PREFIX_PATH": os.pathsep.join(others)}

@@ -1,1 +1,1 @@
-"""A record of typed events: written where they happen, kept in a log to wait on, and read back elsewhere."""
+"""Typed events, a log of them on which code can wait, and their conversion to lines of JSON for other processes."""

@@ -1,6 +1,6 @@
-"""The events of a client of services and actions: requests and what comes back. Messages are ROS messages.
+"""The events of a client of services and actions: what it sends and what it receives. Messages are ROS messages.
 
-Each request, goal and cancel request has a name, by which its answer, feedback and result are found.
+Each request, goal and cancel request has a name. The events of its answer, feedback and result carry the same name.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ class ServiceCalled(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class ServiceAnswered(Event):
-    """Its response came."""
+    """The response to a request was received."""
 
     call: str
     response: Any
@@ -63,7 +63,7 @@ class StatusSeen(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class CancelSent(Event):
-    """`by` is the client that asked; `goal` is empty when it asked to cancel every goal."""
+    """The client `by` sent a cancel request; an empty `goal` means that it requested to cancel every goal."""
 
     cancel: str
     goal: str
@@ -72,7 +72,10 @@ class CancelSent(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class CancelAnswered(Event):
-    """`canceling` names the goals that the server agreed to cancel; `return_code` is of action_msgs/CancelGoal."""
+    """The server answered a cancel request; `canceling` names the goals that it agreed to cancel.
+
+    `return_code` is a constant of action_msgs/CancelGoal.
+    """
 
     cancel: str
     return_code: int
@@ -81,7 +84,7 @@ class CancelAnswered(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class ResultReceived(Event):
-    """A goal ended; `status` is of action_msgs/GoalStatus."""
+    """A goal ended and its result was received; `status` is a constant of action_msgs/GoalStatus."""
 
     goal: str
     status: int
@@ -90,9 +93,9 @@ class ResultReceived(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class TooLarge(Event):
-    """A message of a student's program ("answer", "feedback", …) had more `bytes` than the `limit`, and was not read.
+    """A message of a student's program had more `bytes` than the `limit`, and was not read.
 
-    `id` names the call, goal or cancel request it belongs to, if any.
+    `what` is "answer", "feedback" and so on; `id` names the call, goal or cancel request of the message, if any.
     """
 
     what: str
@@ -103,7 +106,7 @@ class TooLarge(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class Unanswered(Event):
-    """The client stopped waiting, after `waited` s, for the answer to a call, goal, cancel or result, or for an end."""
+    """After `waited` s the client stopped waiting: for an answer, for a result, or for the end of a program."""
 
     what: Literal["call", "goal", "cancel", "result", "end"]
     id: str

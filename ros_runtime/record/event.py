@@ -1,4 +1,4 @@
-"""What every event has, and how one is written as a line of JSON."""
+"""The base class of all events, and their conversion to lines of JSON."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from ros_runtime.messages import is_message, to_dict, type_name
 
 @dataclass(frozen=True, kw_only=True)
 class Event:
-    """Something that happened at `t` (s, `time.monotonic()` of the process that saw it; now, unless it is given).
+    """Something that happened at `t` (s, `time.monotonic()` of the process that observed it; by default now).
 
-    `kind` is the name of the class in lower case and with underscores.
+    `kind` is the name of the class in snake case.
     """
 
     kind: ClassVar[str]
@@ -32,12 +32,12 @@ def to_line(event: Event) -> bytes:
 
 
 def as_line(kind: str, fields: Mapping[str, Any]) -> bytes:
-    """Return the fields of an event, as JSON has them, as one line."""
+    """Return an event's kind and fields as one line of JSON; the fields are those that `to_json` returns."""
     return json.dumps({"kind": kind, **fields}).encode() + b"\n"
 
 
 def to_json(event: Event) -> dict[str, Any]:
-    """Return the fields of an event as JSON has them."""
+    """Return the fields of an event as values that JSON can hold."""
     return {name: _to_json(value) for name, value in vars(event).items()}
 
 

@@ -12,18 +12,18 @@ from ros_runtime.record.event import Event
 
 E = TypeVar("E", bound=Event)
 
-LOOK = 1.0  # s between two tests of a condition, which may also depend on other things, such as a process
+CONDITION_PERIOD = 1.0  # s between two tests of a condition, which may depend on more than the log
 
 
 class EventLog:
-    """Events in the order in which they were appended; safe to use from any thread."""
+    """Events in the order in which they were appended; thread-safe."""
 
     def __init__(self) -> None:
         self._events: defaultdict[type[Event], list[Any]] = defaultdict(list)
         self._changed = threading.Condition()
 
     def append(self, event: Event) -> None:
-        """Add an event, and wake up the threads that wait for it."""
+        """Add an event, and wake up the threads that wait."""
         with self._changed:
             self._events[type(event)].append(event)
             self._changed.notify_all()
@@ -58,14 +58,14 @@ class EventLog:
             )
 
     def wait_until(self, condition: Callable[[], Any], timeout: float) -> bool:
-        """Wait until a condition on the log is true; return False if `timeout` s are over first."""
+        """Wait until a condition on the log is true; return False if `timeout` s pass first."""
         deadline = time.monotonic() + timeout
         with self._changed:
             while not condition():
                 left = deadline - time.monotonic()
                 if left <= 0:
                     return False
-                self._changed.wait(min(left, LOOK))
+                self._changed.wait(min(left, CONDITION_PERIOD))
         return True
 
 

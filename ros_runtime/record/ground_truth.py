@@ -1,4 +1,4 @@
-"""The simulator's events about the robot and itself, by a pipe that student code cannot reach."""
+"""The events that the simulator writes about the robot and itself, to a pipe that student code cannot reach."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ class RobotReady(Event):
 class RobotTruth(Event):
     """The simulator's state of the robot (50 Hz): base_link in odom (m, rad), speed over ground (m/s).
 
-    `up` is 1 when upright; `mode` is of humanoid_interfaces/RobotState; `battery` is 0..1; `lag` is how far (s) the
-    simulation was behind the clock.
+    `up` is 1 when upright; `mode` is a constant of humanoid_interfaces/RobotState; `battery` is 0..1; `lag` is how far
+    (s) the simulation was behind the clock.
     """
 
     simulated: float
@@ -38,9 +38,9 @@ class RobotTruth(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class BodyDescribed(Event):
-    """The names behind the numbers of each PostureTruth; only in recorded runs.
+    """The names of the joints and objects in PostureTruth, in the order of its lists; only in recorded runs.
 
-    `scene` is a scene of robot_sim; `joints` and `objects` are in the order of PostureTruth's lists.
+    `scene` is a scene of robot_sim.
     """
 
     scene: str
@@ -50,7 +50,7 @@ class BodyDescribed(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class PostureTruth(Event):
-    """The whole posture of the robot (25 Hz); only in recorded runs, for films: no check sees it.
+    """The whole posture of the robot (25 Hz); only in recorded runs, for films. Checks have no access to it.
 
     `base` (base_link) and each of `objects`: position (m) and quaternion (x, y, z, w) in odom. `twist`: linear m/s and
     angular rad/s, in base_link. `positions`, `velocities`: of the joints, rad and rad/s (fingers: m and m/s).
@@ -65,14 +65,14 @@ class PostureTruth(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class BatteryPublished(Event):
-    """What the robot published on battery_state: a sensor_msgs/BatteryState."""
+    """The robot published `message` on battery_state: a sensor_msgs/BatteryState."""
 
     message: Any
 
 
 @dataclass(frozen=True, kw_only=True)
 class JointsPublished(Event):
-    """What the robot published on joint_states: a position for each name, rad (fingers: m)."""
+    """The robot published a message on joint_states: a position for each name, rad (fingers: m)."""
 
     names: list[str]
     positions: list[float]
@@ -80,7 +80,7 @@ class JointsPublished(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class ImuPublished(Event):
-    """What the robot published on imu, and the gyro's true bias: rad/s about x, y and z of imu_link."""
+    """The robot published this on imu. Also the gyro's true bias: rad/s about x, y and z of imu_link."""
 
     angular_velocity: list[float]
     gyro_bias: list[float]
@@ -130,7 +130,7 @@ class ObjectTruth(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class ArmReported(Event):
-    """Where elbow and hand (between the fingers) of an arm were: m from its shoulder, along the torso's x, y and z."""
+    """Positions of an arm's elbow and hand (between the fingers): m from its shoulder, along the torso's x, y and z."""
 
     side: str
     elbow: list[float]
@@ -166,7 +166,7 @@ class MotorPowerReceived(Event):
 
 @dataclass(frozen=True, kw_only=True)
 class RobotRefused(Event):
-    """The robot refused messages of a topic: `count` so far; `bytes` of the largest, and the `limit` for one."""
+    """The robot refused messages of a topic: `count` so far, the `bytes` of the largest, and the `limit` for each."""
 
     topic: str
     count: int

@@ -1,7 +1,7 @@
-"""Uses an action's five endpoints one by one, so that every request, answer and message is recorded with its time.
+"""Uses an action's five endpoints directly, so that every request, answer and message is recorded with its time.
 
 rclpy's ActionClient drops feedback after the result and hides answers to cancel requests; here everything is recorded.
-Feedback and status are read as bytes, because any node may publish them, as much and as often as it likes.
+Feedback and status are read as bytes: any node may publish them, in any size and number.
 """
 
 from __future__ import annotations
@@ -27,19 +27,18 @@ from ros_runtime.record.client_events import (
     StatusSeen,
 )
 from ros_runtime.record.event import Event
-from ros_runtime.recorded_client.conversation import NOBODYS, Conversation, Request
+from ros_runtime.recorded_client.conversation import DEFAULT_CLIENT, UNKNOWN_GOAL, Conversation, Request
 from ros_runtime.recorded_client.goal import Cancel, Goal
 
-DEEP = QoSProfile(depth=1000)
-LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+FEEDBACK_QOS = QoSProfile(depth=1000)
+STATUS_QOS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 GOAL_ID = slice(4, 20)  # byte range in a serialized feedback message, after the 4-byte encapsulation header
-ITSELF = "client"
 
 
 class ActionClient:
     """A client of one action; `name` is relative to the node's namespace.
 
-    `others` maps names to further nodes that can request cancels of this client's goals.
+    `others` maps names to further nodes that can send cancel requests for this client's goals.
     """
 
     def __init__(
@@ -62,27 +61,27 @@ class ActionClient:
         self._get_result = node.create_client(types.GetResultService, f"{name}/_action/get_result")
         self._cancel_goal = {
             by: owner.create_client(CancelGoal, f"{name}/_action/cancel_goal")
-            for by, owner in {ITSELF: node, **(others or {})}.items()
+            for by, owner in {DEFAULT_CLIENT: node, **(others or {})}.items()
         }
         self._feedback = node.create_subscription(
-            types.FeedbackMessage, f"{name}/_action/feedback", self._on_feedback, DEEP, raw=True
+            types.FeedbackMessage, f"{name}/_action/feedback", self._on_feedback, FEEDBACK_QOS, raw=True
         )
         self._status = node.create_subscription(
-            GoalStatusArray, f"{name}/_action/status", self._on_status, LATCHED, raw=True
+            GoalStatusArray, f"{name}/_action/status", self._on_status, STATUS_QOS, raw=True
         )
 
     def unmatched(self, count_publishers: Callable[[str], int]) -> list[str]:
-        """Name the endpoints of the action for which no server has been found yet."""
+        """Return the names of the action's endpoints for which no server has been discovered yet."""
         clients = (self._send_goal, self._get_result, *self._cancel_goal.values())
         topics = (self._feedback.topic_name, self._status.topic_name)
         services = {client.srv_name for client in clients if not client.service_is_ready()}
         return sorted(services) + [topic for topic in topics if count_publishers(topic) == 0]
 
     def send(self, goal: Any = None, *, as_: str = "") -> Goal:
-        """Send a goal without waiting; `as_` names it. Its result is asked for as soon as it is accepted."""
+        """Send a goal without waiting; `as_` names it. Its result is requested as soon as it is accepted."""
         goal = self.type.Goal() if goal is None else goal
         name = self._conversation.name("goal", self.name, as_)
-        sent = Goal(name, uuid.uuid4().bytes, self._conversation, self._ask_to_cancel)
+        sent = Goal(name, uuid.uuid4().bytes, self._conversation, self._send_cancel)
         self._names[sent.id], self._goals[sent.name] = sent.name, sent
         self._conversation.log.append(GoalSent(goal=sent.name, action=self.name, request=goal))
         message = self.type.Impl.SendGoalService.Request(goal_id=UUID(uuid=list(sent.id)), goal=goal)
@@ -95,11 +94,11 @@ class ActionClient:
         sent.wait_for_answer()
         return sent
 
-    def cancel_all(self, *, by: str = ITSELF) -> Cancel:
-        """Ask to cancel every goal, without waiting; `by` is the name of the client that asks."""
-        return self._ask_to_cancel("", bytes(16), by)
+    def cancel_all(self, *, by: str = DEFAULT_CLIENT) -> Cancel:
+        """Request to cancel every goal, without waiting; `by` is the name of the client that sends the request."""
+        return self._send_cancel("", bytes(16), by)
 
-    def _ask_to_cancel(self, goal: str, goal_id: bytes, by: str) -> Cancel:
+    def _send_cancel(self, goal: str, goal_id: bytes, by: str) -> Cancel:
         request = CancelGoal.Request()
         request.goal_info.goal_id.uuid = list(goal_id)
         cancel = Cancel(self._conversation.name("cancel", "cancel"), self._conversation)
@@ -131,7 +130,7 @@ class ActionClient:
 
     def _on_feedback(self, data: bytes) -> None:
         goal_id, reading = data[GOAL_ID], self._conversation.reading
-        if not reading.admits(FeedbackReceived.kind, self._names.get(goal_id, NOBODYS)):
+        if not reading.admits(FeedbackReceived.kind, self._names.get(goal_id, UNKNOWN_GOAL)):
             return
         goal = self._name_of(goal_id)
         message = reading.unpack("feedback", goal, data, self.type.Impl.FeedbackMessage)
@@ -148,14 +147,14 @@ class ActionClient:
             goal = self._name_of(goal_id)
             if self._statuses.get(goal) == status.status:
                 continue
-            if reading.admits(StatusSeen.kind, self._names.get(goal_id, NOBODYS)):
+            if reading.admits(StatusSeen.kind, self._names.get(goal_id, UNKNOWN_GOAL)):
                 self._statuses[goal] = status.status
                 self._record(goal, StatusSeen(goal=goal, status=status.status))
 
     def _record(self, name: str, event: Event) -> None:
         goal = self._goals.get(name)
         if goal is not None:
-            goal.take(event)
+            goal.update(event)
         self._conversation.log.append(event)
         for listener in goal.listeners if goal is not None else ():
             listener()

@@ -1,4 +1,4 @@
-"""What all handles of a client share: the log, the reader of messages, the condition to stop waiting, and a request."""
+"""What all handles of a client share: the log, the reader of messages, the condition to stop waiting; and a request."""
 
 from __future__ import annotations
 
@@ -16,22 +16,23 @@ from rclpy.task import Future
 from ros_runtime.record.client_events import TooLarge, Unanswered
 from ros_runtime.record.event_log import EventLog
 
-NOBODYS = "nobody's"  # stands for goals of other clients, in `Reading.admits`
+DEFAULT_CLIENT = "client"  # the name of the client that cancels a goal, unless another one is given
+UNKNOWN_GOAL = "unknown goal"  # for `Reading.admits`: a goal that this client has not sent
 
 
 class Reading:
-    """Unpacks what servers send, without limits of size and number."""
+    """Deserializes what servers send; subclasses limit size and number."""
 
     def admits(self, what: str, of: str) -> bool:
-        """Return whether to read one more event of a kind; `of` names its goal, call or service, or is NOBODYS."""
+        """Return whether to read one more event of a kind; `of` is its goal, call or service, or UNKNOWN_GOAL."""
         return True
 
     def is_too_large(self, what: str, id: str, message: Any) -> bool:
-        """Return whether an answer is too large to be read."""
+        """Return whether an answer exceeds the size limit and must not be read."""
         return False
 
     def unpack(self, what: str, id: str, data: bytes, message_type: Any) -> Any | None:
-        """Return the message in serialized `data`; None if it is not read."""
+        """Return the message in serialized `data`; None if it exceeds the size limit."""
         return deserialize_message(data, message_type)
 
 
@@ -41,18 +42,18 @@ class Conversation:
 
     Attributes:
         log: records all requests, answers and messages; every wait is a wait for an event in it.
-        reading: unpacks received messages and limits them.
-        is_in_vain: returns True when the server is gone, so that waits end early.
+        reading: deserializes received messages and limits them.
+        server_is_gone: returns whether the server has ended; if so, waits end early.
     """
 
     log: EventLog
     reading: Reading = field(default_factory=Reading)
-    is_in_vain: Callable[[], bool] = lambda: False
+    server_is_gone: Callable[[], bool] = lambda: False
     _named: Counter[str] = field(default_factory=Counter)
     _naming: threading.Lock = field(default_factory=threading.Lock)
 
     def name(self, kind: str, of: str, wanted: str = "") -> str:
-        """Return a name for a call, goal or cancel request: the one `wanted`, else `of` and a number."""
+        """Return a unique name for a call, goal or cancel request: `wanted` if given, else `of` with a number."""
         with self._naming:
             self._named[f"{kind} {wanted or of}"] += 1
             number = self._named[f"{kind} {wanted or of}"]
@@ -67,9 +68,12 @@ class Conversation:
         has_come: Callable[[], Any],
         timeout: float,
     ) -> bool:
-        """Return whether an answer came within `timeout` s; if not, or once `is_in_vain`, record Unanswered."""
+        """Wait for an answer; return whether it came. Record Unanswered if it does not come in `timeout` s.
+
+        The wait ends early if the server is gone.
+        """
         started = time.monotonic()
-        self.log.wait_until(lambda: has_come() or self.is_in_vain(), timeout)
+        self.log.wait_until(lambda: has_come() or self.server_is_gone(), timeout)
         if has_come():
             return True
         self.log.append(Unanswered(what=what, id=id, waited=time.monotonic() - started))
@@ -81,7 +85,7 @@ class Conversation:
 
 
 class Request:
-    """A request that was sent; `on_answer` gets the answer, on the thread that spins the node."""
+    """A request that was sent; `on_answer` is called with the answer on the thread that spins the node."""
 
     def __init__(self, client: Client, message: Any, on_answer: Callable[[Any], None]) -> None:
         self._client = client

@@ -1,4 +1,4 @@
-"""Calls of a service."""
+"""A client of a service, and its calls."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ class Call:
         """Wait for the answer; return whether it came."""
         return self._conversation.wait("call", self.name, self._is_answered, timeout)
 
-    def take(self, response: Any) -> None:
-        """Take the answer and record it."""
+    def on_answer(self, response: Any) -> None:
+        """Store the response and record it."""
         if not self._conversation.reading.is_too_large("answer", self.name, response):
             self.response = response
             self._conversation.log.append(ServiceAnswered(call=self.name, response=response))
@@ -51,7 +51,7 @@ class ServiceClient:
         self._conversation = conversation
 
     def unmatched(self) -> list[str]:
-        """Name the service unless a server has been found."""
+        """Return the service's name in a list, or an empty list if a server has been discovered."""
         return [] if self.endpoint.service_is_ready() else [self.name]
 
     def send(self, request: Any = None, *, as_: str = "") -> Call:
@@ -59,7 +59,7 @@ class ServiceClient:
         request = self.type.Request() if request is None else request
         call = Call(self._conversation.name("call", self.name, as_), self._conversation)
         self._conversation.log.append(ServiceCalled(call=call.name, service=self.name, request=request))
-        call.request = Request(self.endpoint, request, call.take)
+        call.request = Request(self.endpoint, request, call.on_answer)
         return call
 
     def call(self, request: Any = None, *, as_: str = "", timeout: float = ANSWER_TIMEOUT) -> bool:
@@ -67,10 +67,10 @@ class ServiceClient:
         return self.send(request, as_=as_).wait(timeout)
 
     def call_at_once(self, requests: Sequence[Any], *, times: int = 1) -> bool:
-        """Send several requests without waiting in between and wait for all answers; do so `times` times.
+        """Send several requests without waiting in between, then wait for all answers; repeat this `times` times.
 
-        Send at most 10 at once: a service's queue holds 10 requests, and a correct node would lose the rest. Stops at
-        the first missing answer; returns whether all arrived.
+        Send at most 10 at once: a service's queue holds 10 requests, and a correct node would lose the rest. Stop at
+        the first missing answer; return whether all answers came.
         """
         for _ in range(times):
             answered = [call.wait() for call in [self.send(request) for request in requests]]

@@ -1,1 +1,1 @@
-"""Workarounds for faults of other software; README.md says for each why it is there and how to remove it."""
+"""Workarounds for faults of other software; README.md says why each is needed and how to remove it."""

@@ -1,8 +1,8 @@
 """End a process when its parent dies, by the kernel's parent-death signal.
 
-As a program, `python die_with_parent.py PARENT_PID PROGRAM ARGUMENT…` becomes PROGRAM. Use it instead of a function
-between fork and exec (`preexec_fn`): another thread may hold a lock at the moment of the fork. It needs the standard
-library alone, so it runs with `-I -S`.
+As a program, `python die_with_parent.py PARENT_PID PROGRAM ARGUMENT…` does so and then executes PROGRAM. Use it
+instead of a function between fork and exec (`preexec_fn`), because another thread may hold a lock at the moment of the
+fork. It needs only the standard library, so it runs with `-I -S`.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ _PR_SET_PDEATHSIG = 1  # from linux/prctl.h
 
 
 def die_with_parent(parent: int, number: int = signal.SIGKILL) -> bool:
-    """Ask the kernel for a signal to this process when its parent dies.
+    """Request from the kernel that it sends this process a signal when its parent dies.
 
-    The kernel counts the thread that started this process as its parent, and forgets the request when the process
+    For the kernel, the parent is the thread that started this process. The kernel drops the request when the process
     changes its user id.
 
     Args:
         parent: the parent's process id.
-        number: of the signal.
+        number: the number of the signal.
 
     Returns:
         Whether the parent is still alive. If not, no signal will come.
@@ -38,7 +38,7 @@ def die_with_parent(parent: int, number: int = signal.SIGKILL) -> bool:
 
 
 def main() -> None:
-    """Become the program that the command line names."""
+    """Replace this process by the program on the command line."""
     if not die_with_parent(int(sys.argv[1])):
         sys.exit("the parent has already ended")
     os.execvp(sys.argv[2], sys.argv[2:])

@@ -9,23 +9,23 @@ from typing import Any
 
 VARIABLE = "MUJOCO_GL"
 BACKENDS = ("egl", "osmesa")  # hardware or Mesa through EGL, else Mesa's off-screen library
-_NONE = ("disable", "disabled", "off", "false", "0")  # values of MUJOCO_GL that switch OpenGL off
+_DISABLED = ("disable", "disabled", "off", "false", "0")  # values of MUJOCO_GL that switch OpenGL off
 HELP = "install libegl1, libgl1-mesa-dri and libopengl0 (EGL) or libosmesa6 (OSMesa)"
-_BOUND_TO_A_PLATFORM = ("mujoco.egl", "mujoco.egl.egl_ext", "mujoco.osmesa")
+_PLATFORM_MODULES = ("mujoco.egl", "mujoco.egl.egl_ext", "mujoco.osmesa")
 
 
-def _set_aside() -> str:
+def _take_from_environment() -> str:
     """Remove MUJOCO_GL from the environment, unless it switches OpenGL off; return its value.
 
-    `import mujoco` fails if the variable names a backend that is unknown or not installed.
+    Otherwise `import mujoco` fails if the variable names a backend that is unknown or not installed.
     """
-    asked = os.environ.get(VARIABLE, "").strip().lower()
-    if asked not in _NONE:
+    backend = os.environ.get(VARIABLE, "").strip().lower()
+    if backend not in _DISABLED:
         os.environ.pop(VARIABLE, None)
-    return asked
+    return backend
 
 
-_asked_at_first = _set_aside()
+_initial_backend = _take_from_environment()
 
 
 class NoOpenGLError(RuntimeError):
@@ -41,9 +41,9 @@ def open_context(width: int, height: int) -> Any:
     Raises:
         NoOpenGLError: no backend works; the message has the reason for each and what to install.
     """
-    asked = _set_aside() or _asked_at_first
+    wanted = _take_from_environment() or _initial_backend
     reasons = []
-    for backend in [asked] if asked in BACKENDS else BACKENDS:
+    for backend in [wanted] if wanted in BACKENDS else BACKENDS:
         try:
             context = importlib.import_module(f"mujoco.{backend}").GLContext(width, height)
         except Exception as error:  # each backend fails in its own way, with any kind of exception
@@ -56,8 +56,8 @@ def open_context(width: int, height: int) -> Any:
 
 
 def _forget_pyopengl() -> None:
-    """Drop the modules of a backend that failed: PyOpenGL binds to one platform at its first import."""
+    """Remove the modules of a failed backend from `sys.modules`: PyOpenGL chooses its platform at the first import."""
     os.environ.pop("PYOPENGL_PLATFORM", None)
     for module in list(sys.modules):
-        if module.split(".")[0] == "OpenGL" or module in _BOUND_TO_A_PLATFORM:
+        if module.split(".")[0] == "OpenGL" or module in _PLATFORM_MODULES:
             del sys.modules[module]

@@ -1,7 +1,7 @@
-"""Load a package's shared libraries when this process first imports the package, and no sooner.
+"""Load a package's shared libraries when this process first imports the package, and not earlier.
 
-The loader reads LD_LIBRARY_PATH only when the process starts, but finds a library that is already loaded by name.
-A library is never unloaded. So this waits for the import: by then a faulty build may have been repaired.
+The loader reads LD_LIBRARY_PATH only when the process starts, but it finds a loaded library by its name. A library
+cannot be unloaded, so it is loaded as late as possible: a new build may replace a faulty one before the import.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def load_on_import(package: str, folder: Path) -> None:
 
 
 class _Finder(MetaPathFinder):
-    """Loads the libraries when the import system asks it for the package; never finds a module itself."""
+    """Loads the libraries when the import system searches for the package; never finds a module itself."""
 
     def __init__(self) -> None:
         self.folders: dict[str, Path] = {}

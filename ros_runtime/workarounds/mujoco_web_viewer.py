@@ -1,4 +1,4 @@
-"""Start MuJoCo's web viewer on the loopback interface alone.
+"""Start MuJoCo's web viewer on the loopback interface only.
 
 The viewer has no password, listens on every interface, and has no option to change that.
 """
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from mujoco.studio.viewer_handle import ViewerHandle
 
 LOOPBACK = "127.0.0.1"
-STARTED_WITHIN = 30.0  # s
+START_TIMEOUT = 30.0  # s
 
 
 def launch_web_viewer(
@@ -26,7 +26,7 @@ def launch_web_viewer(
 
     Args:
         port: where to listen; 0 takes the first free one from 8080 on.
-        camera: where the viewer looks from at first.
+        camera: the initial camera.
         plugins: of `mujoco.studio.plugin`, which draw over the picture.
 
     Returns:
@@ -36,11 +36,11 @@ def launch_web_viewer(
         OSError: the port is taken.
         ImportError: this MuJoCo is older than 4.0 and has no web viewer.
     """
-    # Imported late: this takes half a second, and a robot that nobody watches does not need it.
+    # Imported late: this takes half a second, and a robot without a view does not need it.
     from mujoco.studio import launch_thread, viewer_protocol, web_viewer
 
-    # Its banner names addresses that it is not bound to, and its other output, printed from its own thread, would mix
-    # with other lines.
+    # Its banner shows addresses that it is not bound to. Its other output would mix with this process's lines, because
+    # another thread prints it.
     web_viewer.print = lambda *_arguments, **_options: None
 
     config = viewer_protocol.ViewerConfig(title="robot", gfx="web", http_port=port)
@@ -56,7 +56,7 @@ def launch_web_viewer(
         started.set_result(ports[0])
         viewer_protocol.run_viewer_loop(viewer)
 
-    return launch_thread.launch_thread(serve), started.result(STARTED_WITHIN)
+    return launch_thread.launch_thread(serve), started.result(START_TIMEOUT)
 
 
 @contextmanager

@@ -23,7 +23,7 @@ CIRCLE = {"forward": 0.2, "turn": 0.3}  # m/s, rad/s: every picture differs
 
 @dataclass(frozen=True)
 class Load:
-    """A stretch of time.
+    """The load in an interval of time.
 
     Attributes:
         wall: its length, s.
@@ -43,12 +43,12 @@ class Load:
 
     @property
     def simulator_share(self) -> float:
-        """How much of one core it used, 0 to 1."""
+        """The share of one core that it used, 0 to 1."""
         return self.simulator / self.wall
 
     @property
     def notebook_share(self) -> float:
-        """How much of one core it used, 0 to 1."""
+        """The share of one core that it used, 0 to 1."""
         return self.notebook / self.wall
 
     def __add__(self, other: Load) -> Load:

@@ -1,1 +1,1 @@
-"""Its folder is where the tests of this tier import `kernels` from."""
+"""Makes pytest put this folder on the path, from which the tests of this tier import `kernels`."""

@@ -10,7 +10,7 @@ from jupyter_client.manager import KernelManager, start_new_kernel
 
 
 class CellError(Exception):
-    """A cell raised; `name` is the exception's."""
+    """A cell raised an exception with the name `name`."""
 
     def __init__(self, name: str, message: str) -> None:
         super().__init__(f"{name}: {message}")

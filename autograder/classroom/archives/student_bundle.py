@@ -13,7 +13,7 @@ from autograder.classroom.archives.released_part import Part
 from autograder.classroom.nbgrader_bridge.release import generate_release
 from autograder.engine.exercise import all_names, exercise_names, exercises_folder, file_names, load_exercise
 from course_cli.kept_work import ORIGINALS, sha256_of
-from ros_runtime.course_error import COULD_NOT, CourseError
+from ros_runtime.course_error import COMMAND_FAILED, CourseError
 from ros_runtime.project import TOOLKIT
 
 TOP = "humanoid-course"  # the folder the archive unpacks to
@@ -61,7 +61,7 @@ _ENTRY_DATE = (2026, 1, 1, 0, 0, 0)  # of every file, so that the same content g
 class Leak(CourseError):
     """A file of the archive contains a solution or a hidden check."""
 
-    exit_status = COULD_NOT
+    exit_status = COMMAND_FAILED
 
 
 def write_bundle(root: Path, archive: Path, part: Part | None = None) -> int:

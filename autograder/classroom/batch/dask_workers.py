@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from autograder.classroom.batch.worker_pool import Workers
 from autograder.isolation.availability import Isolation, available_isolation
-from ros_runtime.course_error import COULD_NOT, CourseError
+from ros_runtime.course_error import COMMAND_FAILED, CourseError
 
 MAX_UNFINISHED_JOBS = 1000  # jobs submitted ahead, so that an adaptive cluster sees the demand and grows
 _CONNECT_TIMEOUT = 30.0  # s, to connect to the scheduler and for the first worker to join
@@ -19,7 +19,7 @@ _CONNECT_TIMEOUT = 30.0  # s, to connect to the scheduler and for the first work
 class NoCluster(CourseError):
     """The cluster cannot be used; the message says why, and what to do."""
 
-    exit_status = COULD_NOT
+    exit_status = COMMAND_FAILED
 
 
 @dataclass(frozen=True)

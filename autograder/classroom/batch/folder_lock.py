@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ros_runtime.course_error import COULD_NOT, CourseError
+from ros_runtime.course_error import COMMAND_FAILED, CourseError
 
 LOCK = ".lock"
 
@@ -17,7 +17,7 @@ LOCK = ".lock"
 class FolderInUse(CourseError):
     """Another process grades into the folder; the message says which, and what to do."""
 
-    exit_status = COULD_NOT
+    exit_status = COMMAND_FAILED
 
 
 @contextmanager

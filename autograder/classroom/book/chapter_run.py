@@ -17,7 +17,7 @@ from nbformat.v4 import new_code_cell
 
 from lab.learning.gap_cells import fill_gaps
 from ros_cli.real_ros2 import path_with_ros2
-from ros_runtime.course_error import COULD_NOT, CourseError
+from ros_runtime.course_error import COMMAND_FAILED, CourseError
 
 # s; building interfaces takes ten seconds on an idle machine, and minutes on a busy one
 CELL_TIMEOUT = 300
@@ -26,7 +26,7 @@ CELL_TIMEOUT = 300
 class ChapterFailed(CourseError):
     """A cell of a chapter raised, did not end in time, or lost its kernel."""
 
-    exit_status = COULD_NOT
+    exit_status = COMMAND_FAILED
 
 
 @dataclass(frozen=True)

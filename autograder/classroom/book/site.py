@@ -14,7 +14,7 @@ from nbformat import NotebookNode
 from autograder.classroom.book.links import Links
 from autograder.classroom.book.reader_copy import reader_copy
 from autograder.classroom.book.week_pages import week_page
-from ros_runtime.course_error import COULD_NOT, CourseError
+from ros_runtime.course_error import COMMAND_FAILED, CourseError
 from ros_runtime.project import PROJECT
 
 CONFIGURATION = Path(__file__).with_name("sphinx")
@@ -56,7 +56,7 @@ OUTPUTS = " Their outputs and pictures come from a run of every cell."
 class BookFailed(CourseError):
     """Sphinx could not make the site, or it printed a warning."""
 
-    exit_status = COULD_NOT
+    exit_status = COMMAND_FAILED
 
 
 def parts_of(project: Path) -> dict[str, dict[PurePosixPath, Path]]:

@@ -23,7 +23,7 @@ from autograder.classroom.audit.run import AuditedRun
 from autograder.classroom.audit.run import audit as audit_submissions
 from autograder.engine.exercise import Exercise, exercise_names, load_exercise
 from autograder.isolation.availability import available_isolation
-from course_cli.ending import COULD_NOT, error_exit
+from course_cli.ending import COMMAND_FAILED, error_exit
 from course_cli.options import CourseOption, JobsOption
 from ros_runtime.course_error import CourseError
 
@@ -129,12 +129,12 @@ def audit(
             if json_file
             else "No grading is saved."
         )
-        raise error_exit(console, f"Interrupted. {advice}", COULD_NOT) from None
+        raise error_exit(console, f"Interrupted. {advice}", COMMAND_FAILED) from None
     if not found:
         raise CourseError(f"no {'mutant' if generated else 'submission'} matches {only!r}")
     for line in left:
         console.print(f"left behind: {line}", style="red", markup=False)
-    raise typer.Exit(0 if is_as_expected else COULD_NOT)
+    raise typer.Exit(0 if is_as_expected else COMMAND_FAILED)
 
 
 def _audit(

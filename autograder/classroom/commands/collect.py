@@ -15,7 +15,7 @@ from autograder.classroom.collect.download import UnusableDownload, open_downloa
 from autograder.classroom.collect.handed_in import Assignment, Reading
 from autograder.classroom.collect.placing import Placed, place
 from autograder.engine.exercise import UnknownExercise, all_names
-from course_cli.ending import COULD_NOT, error_exit
+from course_cli.ending import COMMAND_FAILED, error_exit
 from course_cli.options import CourseOption
 
 # The reader of each platform's downloads.
@@ -66,7 +66,7 @@ def collect(
                 )
             placed = place(choice, out, overwrite=overwrite)
     except OSError as error:
-        raise error_exit(console, f"{out} cannot be written: {error}", COULD_NOT) from error
+        raise error_exit(console, f"{out} cannot be written: {error}", COMMAND_FAILED) from error
     for line in [*reading.unknown, *choice.left_aside]:
         console.print(f"left aside: {line}", style="yellow", markup=False)
     if without := {one.student for one in reading.files} - {student for student, _ in choice.works}:
@@ -77,7 +77,7 @@ def collect(
             markup=False,
         )
     _print_summary(console, reading, placed, out)
-    raise typer.Exit(COULD_NOT if reading.refused or placed.refused else 0)
+    raise typer.Exit(COMMAND_FAILED if reading.refused or placed.refused else 0)
 
 
 def _require_usable(exercise: str, assignment: str) -> None:

@@ -28,7 +28,7 @@ from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.rendering import Section, write_page
 from autograder.report.sequence import transcript_svg
 from autograder.report.table import MARKS, summary
-from course_cli.ending import COULD_NOT, NOT_GRADED
+from course_cli.ending import COMMAND_FAILED, NOT_GRADED
 from course_cli.options import JobsOption
 from humanoid_interfaces.action import WalkTo
 from ros_runtime.course_error import CourseError
@@ -42,7 +42,7 @@ FAULTY = {"ignores cancel": "faulty/ignores_cancel", "crashes": "faulty/crashes_
 class DemoFailed(CourseError):
     """A step of the demo did not have the expected result."""
 
-    exit_status = COULD_NOT
+    exit_status = COMMAND_FAILED
 
     def __str__(self) -> str:
         return f"The demo failed: {super().__str__()}"

@@ -13,7 +13,7 @@ from rich.console import Console
 from autograder.classroom.export.formats import FORMATS, Export, LeftOut, read_batch
 from autograder.classroom.export.formats import export as make_export
 from autograder.classroom.export.published import Options, UnusableBatch
-from course_cli.ending import COULD_NOT, error_exit
+from course_cli.ending import COMMAND_FAILED, error_exit
 
 Format = Enum("Format", {name: name for name in FORMATS}, type=str)  # type: ignore[misc]
 
@@ -79,12 +79,12 @@ def export(
     try:
         made.write(folder)
     except OSError as error:
-        raise error_exit(console, f"{folder} cannot be written: {error}", COULD_NOT) from error
+        raise error_exit(console, f"{folder} cannot be written: {error}", COMMAND_FAILED) from error
     _print_summary(console, made, folder)
     is_score_lost = any(left.has_score for left in made.left_out)
     # Classroom 50's format cannot express “not graded”, so only the exit status reports it.
     is_unreported = format_.value == "classroom50" and any(left.why == "not graded" for left in made.left_out)
-    raise typer.Exit(COULD_NOT if is_score_lost or is_unreported else 0)
+    raise typer.Exit(COMMAND_FAILED if is_score_lost or is_unreported else 0)
 
 
 def _print_summary(console: Console, made: Export, folder: Path) -> None:

@@ -13,7 +13,7 @@ from autograder.classroom.batch.request import BatchRequest, UnusableRequest
 from autograder.classroom.batch.shards import Shard
 from autograder.classroom.class_grading.once import grade_once
 from autograder.classroom.class_grading.watching import watch_and_grade
-from course_cli.ending import COULD_NOT, UNUSABLE, error_exit
+from course_cli.ending import COMMAND_FAILED, UNUSABLE, error_exit
 from course_cli.options import CourseOption, JobsOption
 
 
@@ -105,7 +105,7 @@ def grade(
         status = watch_and_grade(console, request) if request.watch else grade_once(console, request)
     except KeyboardInterrupt:
         console.print("Interrupted. Add --resume to continue.", style="yellow")
-        raise typer.Exit(COULD_NOT) from None
+        raise typer.Exit(COMMAND_FAILED) from None
     raise typer.Exit(status)
 
 

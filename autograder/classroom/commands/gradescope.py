@@ -10,7 +10,7 @@ import typer
 from rich.console import Console
 
 from autograder.classroom.on_gradescope.container import CannotGrade, Container, isolation_here
-from course_cli.ending import COULD_NOT, error_exit
+from course_cli.ending import COMMAND_FAILED, error_exit
 from ros_runtime.project import PROJECT
 
 
@@ -38,13 +38,13 @@ def gradescope(
         results = grade_upload(container, exercise, isolation)
     except CannotGrade as error:
         container.write(WITHOUT_SCORE)
-        raise error_exit(console, f"not graded: {error}", COULD_NOT) from error
+        raise error_exit(console, f"not graded: {error}", COMMAND_FAILED) from error
     except Exception as error:  # any other error is the grader's fault, not the student's
         container.write(WITHOUT_SCORE)
         traceback.print_exc()
-        raise typer.Exit(COULD_NOT) from error
+        raise typer.Exit(COMMAND_FAILED) from error
     container.write(results)
     console.print(
         f"{container.results}: {'no score' if results.score is None else f'{results.score:g} points'}"
     )
-    raise typer.Exit(COULD_NOT if results.score is None else 0)
+    raise typer.Exit(COMMAND_FAILED if results.score is None else 0)

@@ -10,7 +10,7 @@ from rich.console import Console
 
 from autograder.classroom.archives.gradescope_package import write_package
 from autograder.engine.exercise import essay_names, exercise_names
-from course_cli.ending import COULD_NOT, UNUSABLE, error_exit
+from course_cli.ending import COMMAND_FAILED, UNUSABLE, error_exit
 from course_cli.options import CourseOption
 from ros_runtime.project import PROJECT
 
@@ -44,5 +44,5 @@ def gradescope(
     try:
         count = write_package(PROJECT, archive, exercise)
     except OSError as error:
-        raise error_exit(console, error, COULD_NOT) from error
+        raise error_exit(console, error, COMMAND_FAILED) from error
     console.print(f"{archive}: {count} files, {archive.stat().st_size / 1e6:.1f} MB", markup=False)

@@ -14,7 +14,7 @@ from autograder.classroom.archives.student_bundle import write_bundle
 from autograder.classroom.nbgrader_bridge.course_folder import NbgraderError
 from autograder.classroom.nbgrader_bridge.release import bring_up_to_date, out_of_date
 from autograder.engine.exercise import exercises_folder
-from course_cli.ending import COULD_NOT, UNUSABLE, error_exit
+from course_cli.ending import COMMAND_FAILED, UNUSABLE, error_exit
 from course_cli.options import CourseOption
 from ros_runtime.course_error import CourseError
 from ros_runtime.project import PROJECT
@@ -69,7 +69,7 @@ def _report_differences(console: Console) -> None:
         console.print(f"{path.relative_to(solutions.parent)} is out of date", style="red", markup=False)
     if differing:
         console.print("Run ./course release --exercises and commit the changes.")
-    raise typer.Exit(COULD_NOT if differing else 0)
+    raise typer.Exit(COMMAND_FAILED if differing else 0)
 
 
 def _update(console: Console) -> None:

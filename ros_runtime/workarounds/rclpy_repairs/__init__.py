@@ -1,1 +1,1 @@
-"""Repairs of faults in rclpy that would cost a correct node points; every process of the environment has them."""
+"""Repairs of rclpy's faults that would cost a correct node points; every process of the environment has them."""

@@ -1,20 +1,20 @@
-"""Repair of rclpy's MultiThreadedExecutor, which in some versions spins at full load instead of working.
+"""Repair of rclpy's MultiThreadedExecutor, which in some versions takes a whole core while callbacks wait.
 
-What happens. With a callback that sleeps (an action's execute loop, say) and a subscription, the spinning
-thread now and then takes a whole core and the callbacks starve: feedback meant at 5 Hz arrives at 0.5 Hz
+What happens. A node has a subscription and a callback that sleeps, such as an action's execute loop. At times the
+spinning thread takes a whole core and the callbacks starve: feedback that should have 5 Hz has 0.5 Hz
 (ros2/rclpy#1452).
 
-Why. The thread that spins hands each ready handler to a pool and goes back to waiting at once. Until a worker
+Why. The spinning thread submits each ready handler to a pool of workers and waits again at once. Until a worker
 has taken the message, the subscription stays out of the wait set, but its QoS event handlers remain in it.
-They share the reader's status condition, which the unread message keeps triggered. So the wait returns at
-once with nothing to do, again and again, and each time the spinning thread gets hold of the interpreter lock
-before the worker that should take the message. Meanwhile the handler that waits in the pool counts as idle
-and is submitted over and over; that half is what upstream repaired (ros2/rclpy#1547).
+They share the reader's status condition, which the unread message keeps triggered. So each wait returns at
+once with nothing to do, and each time the spinning thread gets the interpreter lock before the worker that should
+take the message. There is a second fault: a handler that still waits in the pool counts as idle, so the executor
+submits it again and again. Upstream has repaired only this second fault (ros2/rclpy#1547).
 
-The repair. The executor does not go back to waiting before every handler it submitted has been taken over by
-a worker: a fresh handler when it has taken its message or had nothing to take, a resumed coroutine when it
-runs again. While all workers are busy it therefore rests, as no further handler could start anyway, and looks
-every 50 ms whether it is told to stop.
+The repair. The executor does not wait again before a worker has taken over every submitted handler. A new handler
+is taken over when it has taken its message or found none, a resumed coroutine when it runs again. So while all
+workers are busy, the spinning thread sleeps; no further handler could start anyway. Every 50 ms it checks whether
+it has to stop.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ from typing import Any
 from ros_runtime.workarounds.rclpy_repairs.version import numbers
 
 FIRST_AFFECTED = (7, 1, 0)
-# The request to bring #1547 to Jazzy is younger than 7.1.12.
+# 7.1.12 was released before anybody requested a backport of #1547 to Jazzy.
 FIRST_REPAIRED = (7, 1, 13)
 
-_LOOK_PERIOD = 0.05  # s between looks at shutdown and at the caller's condition
-_LEAST_PATIENCE = 0.001  # s; a caller that never waits still lets the workers have the interpreter lock
+_STOP_CHECK_PERIOD = 0.05  # s between two checks for shutdown and of the caller's condition
+_SHORTEST_TIMEOUT = 0.001  # s; gives the workers the interpreter lock even if the caller's timeout is 0
 
 
 def needs_repair(version: str) -> bool:
@@ -85,8 +85,8 @@ def repair(executors: ModuleType) -> None:
 class _Takeovers:
     """The handlers that were submitted to the pool and that no worker has taken over yet.
 
-    threading's events and conditions can stay locked when KeyboardInterrupt is raised in the thread that uses them,
-    and then the workers never end. A plain lock in a with statement and SimpleQueue cannot.
+    This class uses a plain lock in `with` statements and a SimpleQueue. threading's events and conditions can stay
+    locked if KeyboardInterrupt is raised in the thread that uses them, and then the workers never end.
     """
 
     def __init__(self) -> None:
@@ -101,7 +101,7 @@ class _Takeovers:
             self._to_take.add(task)
 
     def submitted(self, task: Any) -> bool:
-        """Note that `task` goes to the pool; False if it is there already."""
+        """Record that `task` is submitted to the pool; return False if it is already there."""
         with self._lock:
             if task in self._submitted:
                 return False
@@ -122,14 +122,14 @@ class _Takeovers:
                 self._all_done.put(None)
 
     def wait(self, timeout_sec: float | None, should_stop: Callable[[], bool]) -> bool:
-        """Wait until all are taken over or the caller has to stop; False if `timeout_sec` passes first."""
-        patience = math.inf
+        """Wait until workers have taken over all handlers or `should_stop()`; False if `timeout_sec` passes first."""
+        timeout = math.inf
         if timeout_sec is not None and timeout_sec >= 0:
-            patience = max(timeout_sec, _LEAST_PATIENCE)
-        end = time.monotonic() + patience
+            timeout = max(timeout_sec, _SHORTEST_TIMEOUT)
+        end = time.monotonic() + timeout
         while self._submitted:
             try:
-                self._all_done.get(timeout=min(_LOOK_PERIOD, max(end - time.monotonic(), 0.0)))
+                self._all_done.get(timeout=min(_STOP_CHECK_PERIOD, max(end - time.monotonic(), 0.0)))
             except Empty:
                 if should_stop():
                     return True
@@ -146,7 +146,7 @@ class _TakeoverPool(ThreadPoolExecutor):
         self._takeovers = takeovers
 
     def submit(self, task: Any) -> Any:  # type: ignore[override]
-        """Run `task`, unless it is waiting to be run already."""
+        """Run `task`, unless it is already waiting in the pool."""
         return super().submit(self._run, task) if self._takeovers.submitted(task) else None
 
     def _run(self, task: Any) -> None:

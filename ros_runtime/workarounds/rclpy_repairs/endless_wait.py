@@ -2,12 +2,12 @@
 
 What happens. `spin()`, and every other spin without a timeout, takes a whole processor and never returns.
 
-Why. Without a timeout the executor waits until steady_clock's last moment (`EventsQueue::Run`). Compiled for a glibc
-without pthread_cond_clockwait, which came with 2.30, libstdc++ converts that moment to the system clock, and the sum
-overflows. pthread_cond_timedwait refuses a negative time before it unlocks the mutex (EINVAL), so the executor asks
-again and again, and no event can be put into its queue.
+Why. Without a timeout the executor waits until steady_clock's maximum (`EventsQueue::Run`). If libstdc++ is compiled
+for a glibc before 2.30, which has no pthread_cond_clockwait, it converts that time to the system clock, and the
+addition overflows to a negative time. pthread_cond_timedwait rejects that (EINVAL) before it unlocks the mutex, so the
+executor calls it again and again, and no event can enter the executor's queue.
 
-The repair. A spin without a timeout gets one of thirty years.
+The repair. A spin without a timeout gets a timeout of thirty years.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-_FOR_EVER = 1e9  # s; added to today's system time it does not overflow
+_LONGEST_TIMEOUT = 1e9  # s; does not overflow when it is added to the present system time
 
 
 def needs_repair(library: Path) -> bool:
-    """Return whether rclpy's compiled module was made for a glibc in which only the system clock can be waited on."""
+    """Return whether rclpy's compiled module was made for a glibc without pthread_cond_clockwait."""
     return b"pthread_cond_clockwait" not in library.read_bytes()
 
 
@@ -38,7 +38,7 @@ def repair(compiled: ModuleType) -> None:
 
     @wraps(cls.spin)
     def spin(self: Any) -> None:
-        until(self, Future(), _FOR_EVER)
+        until(self, Future(), _LONGEST_TIMEOUT)
 
     @wraps(once)
     def spin_once(self: Any, timeout_sec: float | None = None) -> None:
@@ -57,4 +57,4 @@ def repair(compiled: ModuleType) -> None:
 
 
 def _finite(timeout_sec: float | None) -> float:
-    return _FOR_EVER if timeout_sec is None else timeout_sec
+    return _LONGEST_TIMEOUT if timeout_sec is None else timeout_sec

@@ -1,7 +1,7 @@
 """Repair rclpy in every process of the environment, when it imports a module that has a fault.
 
-A .pth file calls `install` whenever Python starts. So this module imports nothing that costs time, and rclpy
-only when the program does. RCLPY_REPAIRS=off leaves rclpy as it is, to see the fault.
+A .pth file calls `install` whenever Python starts. So this module imports nothing slow, and the repairs are imported
+only after the program has imported rclpy. RCLPY_REPAIRS=off leaves rclpy unrepaired, which shows the faults.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ if TYPE_CHECKING:  # typing itself takes a millisecond to import
 
 
 def install() -> None:
-    """Install the finder that repairs modules when they are imported, and unset RMW_IMPLEMENTATION if it names another.
+    """Install finders that repair modules when they are imported; unset RMW_IMPLEMENTATION unless it is the default.
 
-    A shell may set that variable for other ROS work. If the middleware it names is not installed, rcl ends the process
-    at the import of rclpy; if it is, the course's nodes still have to use the default one.
+    A shell may set that variable for other ROS work. If its middleware is not installed, rcl ends the process at the
+    import of rclpy. If it is installed, the course's nodes must still use the default middleware.
     """
     if os.environ.get("RMW_IMPLEMENTATION") not in (None, "rmw_fastrtps_cpp"):
         del os.environ["RMW_IMPLEMENTATION"]

@@ -1,21 +1,21 @@
 """Repair of rclpy's handling of Ctrl-C while an executor spins.
 
-What happens. A node that catches KeyboardInterrupt and ExternalShutdownException around spin(), as it should,
-sometimes still ends with another error, or is aborted by the C++ runtime.
+What happens. A node catches KeyboardInterrupt and ExternalShutdownException around spin(), as it should. Still, it
+sometimes ends with another error, or the C++ runtime aborts it.
 
 Why. SIGINT does two things at once: a thread of rclpy shuts the context down, and Python raises KeyboardInterrupt
-in the main thread. Either can happen between two steps that rclpy treats as one:
+in the main thread. Each can happen at a moment that rclpy does not expect:
 
 1. Between the check of the context and the creation of the wait set: RCLError "failed to initialize wait set".
-2. Into the constructor of a message that C++ code calls: pybind11 loses the KeyboardInterrupt and raises
+2. During the constructor of a message, called by C++ code: pybind11 loses the KeyboardInterrupt and raises
    RuntimeError "Unable to convert call argument".
 3. Between try_shutdown()'s check of the context and its shutdown: RCLError "rcl_shutdown already called".
-4. While a callback publishes, calls or answers: RCLError "context is invalid".
-5. A daemon thread still waits in C++ code when the interpreter ends. Python before 3.14 ends such a thread by
-   unwinding its stack, which C++ answers with "terminate called without an active exception" and SIGABRT.
+4. While a callback publishes, calls a service or sends a response: RCLError "context is invalid".
+5. At the end of the interpreter, while a daemon thread still waits in C++ code. Python before 3.14 ends such a thread
+   by unwinding its stack. Then C++ prints "terminate called without an active exception" and raises SIGABRT.
 
-The repair. 1, 2 and 4 raise ExternalShutdownException or KeyboardInterrupt instead; 3 is ignored, because the context
-is shut down as requested; in 5 the waits are ended before the interpreter exits.
+The repair. Cases 1, 2 and 4 raise ExternalShutdownException or KeyboardInterrupt instead. Case 3 is ignored, because
+the context is shut down as requested. In case 5 the waits are ended before the interpreter exits.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ from typing import Any
 from ros_runtime.workarounds.rclpy_repairs.version import numbers
 
 FIRST_AFFECTED = (7, 1, 0)
-# Jazzy's last minor version; how later distributions wait was not examined.
+# Jazzy has 7.1; later versions were not examined.
 FIRST_UNKNOWN = (7, 2, 0)
 
-_CONTEXT_DOWN_WITHIN = 0.5  # s from SIGINT to the end of the context, on a busy machine
-_WAITS_END_WITHIN = 1.0  # s to wait at the interpreter's exit for threads to return from C++
+_SHUTDOWN_TIMEOUT = 0.5  # s from SIGINT to the shutdown of the context, on a busy machine
+_WAITS_END_TIMEOUT = 1.0  # s for threads to return from C++ when the interpreter exits
 
 
 def needs_repair(version: str) -> bool:
@@ -90,7 +90,7 @@ def _handling(make_handler: Callable[..., Any]) -> Callable[..., Any]:
             try:
                 return take_from_wait_list(entity)
             except RuntimeError as error:
-                if "Unable to convert call argument" in str(error) and _goes_down(self._context):
+                if "Unable to convert call argument" in str(error) and _shuts_down_soon(self._context):
                     raise KeyboardInterrupt from None
                 raise
 
@@ -111,9 +111,9 @@ def _spinning(spin_once: Callable[..., None], executors: ModuleType) -> Callable
     return spin_once_until_shutdown
 
 
-def _goes_down(context: Any) -> bool:
-    """Return whether the context is shut down, or is about to be."""
-    end = time.monotonic() + _CONTEXT_DOWN_WITHIN
+def _shuts_down_soon(context: Any) -> bool:
+    """Return whether the context is shut down now or within _SHUTDOWN_TIMEOUT."""
+    end = time.monotonic() + _SHUTDOWN_TIMEOUT
     while context.ok():
         if time.monotonic() >= end:
             return False
@@ -133,9 +133,9 @@ def _shutting_down(try_shutdown: Callable[[Any], None]) -> Callable[[Any], None]
 
 
 class _Waits:
-    """The executors that wait for work, by the thread they wait in.
+    """The executors that wait for work, by the id of the thread in which each waits.
 
-    It uses no lock, because a KeyboardInterrupt could leave it locked.
+    This class uses no lock, because a KeyboardInterrupt could leave the lock locked.
     """
 
     def __init__(self) -> None:
@@ -151,13 +151,13 @@ class _Waits:
         self._executors.pop(threading.get_ident(), None)
 
     def end(self) -> None:
-        """Wake the executors that wait, and give their threads the time to come back from C++."""
+        """Wake the waiting executors, and wait until their threads have returned from C++."""
         self._ended = True
         self.finish()
         for executor in list(self._executors.values()):
             executor._is_shutdown = True
             with suppress(RuntimeError):  # the executor has been destroyed meanwhile
                 executor.wake()
-        end = time.monotonic() + _WAITS_END_WITHIN
+        end = time.monotonic() + _WAITS_END_TIMEOUT
         while self._executors and time.monotonic() < end:
             time.sleep(0.001)

@@ -1,12 +1,12 @@
-"""Repair of rclpy's ActionClient, which may lose the answer to a goal, a cancel or a request for a result.
+"""Repair of rclpy's ActionClient, which may lose the response to a goal, a cancel request or a result request.
 
-What happens. Where one thread sends and another one spins, a quick answer is dropped with the warning "Ignoring
+What happens. If one thread sends and another one spins, a quick response is dropped with the warning "Ignoring
 unexpected goal response", and the future of the request never completes (ros2/rclpy#1123).
 
 Why. The client sends the request first and stores its sequence number afterwards. If the spinning thread takes the
-answer in between, it finds no request with that number.
+response in between, it finds no request with that number.
 
-The repair. A lock makes sending and storing one step, during which no answer is taken. (Upstream's fix, in #1308 and
+The repair. A lock makes sending and storing one step, during which no response is taken. (Upstream's fix, in #1308 and
 its backports, holds a lock over the same lines.)
 """
 

@@ -1,20 +1,18 @@
-"""Which rclpy is installed: a repair is applied to the versions that need it and to no other."""
+"""The version of the installed rclpy: a repair is applied only to the versions that need it."""
 
 from __future__ import annotations
 
 import os
 import sys
 
-PACKAGES = (
-    "ros_rclpy",
-    "rclpy",
-)  # the wheels' metadata, then apt's, whose egg-info lags behind in the wheels
+# The wheels' metadata comes first: the wheels also contain apt's "rclpy", but with an older version in its egg-info.
+PACKAGES = ("ros_rclpy", "rclpy")
 
 
 def installed_version() -> str:
-    """Return the version of rclpy, as its metadata is named in the first folder of the path that has any.
+    """Return the version of rclpy, read from the name of its metadata folder on the path.
 
-    importlib.metadata tells the same, but costs every ROS process 20 ms of imports.
+    importlib.metadata returns the same, but importing it costs every ROS process 20 ms.
 
     Raises:
         LookupError: no rclpy is installed.

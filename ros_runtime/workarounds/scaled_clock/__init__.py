@@ -1,1 +1,1 @@
-"""A clock that a whole arena shares and that can run faster than real time."""
+"""A clock that all processes of an arena share, and that can run faster than real time."""

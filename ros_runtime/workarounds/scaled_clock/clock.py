@@ -1,12 +1,12 @@
-"""The writing side of the scaled clock: create the page that an arena's processes share, and set its pace.
+"""The writing side of the scaled clock: create the page that an arena's processes share, and set its scale.
 
-    clock = ScaledClock.create(directory / "clock")     # starts at the pace of real time
+    clock = ScaledClock.create(directory / "clock")     # starts at scale 1, real time
     subprocess.Popen(..., env={**env, **clock.environment()})
     ...                                                 # the endpoints are matched
-    clock.run_at(5.0)                                   # from here on five times faster, for all at once
+    clock.run_at(5.0)                                   # from now on five times faster in all processes
 
-The processes follow it through the preloaded library built from scaled_clock.c, whose head says how. The
-layout of the page is that of clock_page.h.
+The processes follow the clock through a preloaded library, built from scaled_clock.c; the first comment there explains
+how. The page has the layout of clock_page.h.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ VERSION = 2
 _PAGE = struct.Struct("=8sIIqqd")  # magic, version, is set, realtime offset in ns, switch in ns, scale
 _IS_SET_OFFSET, _SWITCH_OFFSET = 12, 24
 
-# The new pace starts this far in the future: nobody may have read a time beyond it when it is published.
+# The switch lies this far in the future, so that no process has read a later time when the switch is published.
 _NOTICE_NS = 10_000_000
 
 
@@ -51,7 +51,7 @@ def follow(path: str | os.PathLike[str]) -> None:
 
 
 def library_path() -> Path | None:
-    """Return the preloaded library of this environment; None if it could not be built, so all runs at scale 1."""
+    """Return the preloaded library of this environment; None if it could not be built, so that only scale 1 works."""
     path = Path(sys.prefix) / "lib" / "libscaled_clock.so"
     return path if path.exists() else None
 
@@ -62,7 +62,7 @@ class ScaledClock:
     Attributes:
         path: of the page that processes read.
         scale: arena seconds per real second, from the switch on.
-        switch_ns: when it changes its pace, on the real CLOCK_MONOTONIC; None before `run_at`.
+        switch_ns: the time of the switch to `scale`, on the real CLOCK_MONOTONIC; None before `run_at`.
     """
 
     def __init__(self, path: Path, page: mmap.mmap, library: Path | None) -> None:
@@ -94,19 +94,19 @@ class ScaledClock:
         return {"LD_PRELOAD": str(self._library), PAGE_VARIABLE: str(self.path)}
 
     def run_at(self, scale: float) -> None:
-        """Let the clock run `scale` times as fast as real time, for all processes from the same instant on, for good.
+        """Switch the clock to `scale` times real time, for all processes at the same instant; it can be called once.
 
-        Returns when that instant has come, about 10 ms later. Processes then sleep without interruption; until now
-        they woke every 10 ms to read the page.
+        Returns after the switch, about 10 ms later. Before the switch, sleeping processes wake every 10 ms to read the
+        page; after it they sleep without interruption.
 
-        ROS nodes discover each other in real time. Speed up only 0.2 s after a client has found its server: the server
-        may not have discovered the client yet, and at scale 10 its timeout for that is ten times shorter.
+        ROS nodes discover each other in real time. Call this only 0.2 s after a client has discovered its server: the
+        server may not have discovered the client yet, and at scale 10 its timeout for that is ten times shorter.
 
         Raises:
-            RuntimeError: processes cannot follow, or the clock has changed its pace already.
+            RuntimeError: processes cannot follow, or the clock has been switched already.
         """
         if not 0.01 <= scale <= 100.0:
-            raise ValueError(f"a clock cannot run {scale} times as fast as the wall; expected 0.01 to 100")
+            raise ValueError(f"a clock cannot run at {scale} times real time; expected 0.01 to 100")
         if scale != 1.0 and self._library is None:
             raise RuntimeError(
                 "the library that lets processes follow a scaled clock was not built here; run at scale 1,"
@@ -119,11 +119,11 @@ class ScaledClock:
             time.sleep(0.001)
 
     def _publish(self, scale: float) -> int:
-        """Publish a switch that happens soon; return its instant, in ns of the real CLOCK_MONOTONIC."""
+        """Publish a switch in the near future; return its time, in ns of the real CLOCK_MONOTONIC."""
         while True:
             switch = real_monotonic_ns() + _NOTICE_NS
             struct.pack_into("=qd", self._page, _SWITCH_OFFSET, switch, scale)
-            # Publishing late would let the clock jump for those who have read beyond the switch; so try again.
+            # If this is too late, the clock would jump in processes that have read a time after the switch: try again.
             if real_monotonic_ns() < switch - _NOTICE_NS // 2:
                 struct.pack_into("=I", self._page, _IS_SET_OFFSET, 1)
                 return switch

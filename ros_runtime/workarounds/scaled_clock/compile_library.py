@@ -1,4 +1,4 @@
-"""Compile the preloaded half of the scaled clock.
+"""Compile the preloaded library of the scaled clock.
 
 Run as `python -m ros_runtime.workarounds.scaled_clock.compile_library TARGET`.
 """
@@ -17,8 +17,8 @@ def compile_library(target: Path) -> None:
     """Compile scaled_clock.c into the shared library `target`; $CC chooses the compiler (default: cc).
 
     Raises:
-        OSError: there is no compiler, so this machine runs at scale 1.
-        subprocess.CalledProcessError: the compiler refuses the source, as it does before glibc 2.30; likewise.
+        OSError: there is no compiler. Arenas on this machine then run at scale 1.
+        subprocess.CalledProcessError: the source does not compile, as with a glibc before 2.30; same consequence.
     """
     compiler = os.environ.get("CC", "cc")
     flags = ["-std=c11", "-O2", "-Wall", "-Wextra", "-shared", "-fPIC", "-pthread"]

@@ -1,21 +1,20 @@
 /*
- * A clock that runs faster, for whole processes: preload this library and every clock a program reads,
- * and every timeout it waits for, follows the page named by SCALED_CLOCK_PAGE (see clock_page.h). Without
+ * A clock that runs faster, for whole processes: preload this library, and every clock a program reads
+ * and every timeout it waits for follows the page named by SCALED_CLOCK_PAGE (see clock_page.h). Without
  * that variable each call goes straight to libc.
  *
- * How it works. All time inside is one number: nanoseconds of the scaled CLOCK_MONOTONIC. Clocks are read
- * by mapping the real CLOCK_MONOTONIC to it. Waits turn their timeout into a deadline on it, map the
- * deadline back to the real CLOCK_MONOTONIC, and wait for that with libc's own function.
+ * How it works. All times inside this library are nanoseconds of the scaled CLOCK_MONOTONIC. To read a clock, the
+ * real CLOCK_MONOTONIC is mapped to the scaled one. To wait, a timeout becomes a deadline on the scaled clock, the
+ * deadline is mapped back to the real CLOCK_MONOTONIC, and libc's own function waits for that.
  *
- * Before the switch. While the switch is not set, somebody may speed the clock up during a wait. So waits
- * are cut into pieces of at most LONGEST_BLIND_WAIT_NS and the deadline is mapped again after each. Waits
- * for a state (a semaphore, a lock, a descriptor, mere time) simply go on. A condition variable must not:
- * between two pieces nobody listens, so a signal would be lost. There the end of a piece is reported as a
- * spurious wake-up, which POSIX permits and after which the caller looks at its predicate again.
+ * Before the switch. The writer may set the switch during a wait. So until it is set, waits
+ * are cut into pieces of at most LONGEST_BLIND_WAIT_NS, and the deadline is mapped again after each piece. Waits
+ * for a state (a semaphore, a lock, a descriptor, a time) continue with the next piece. A condition variable
+ * cannot: a signal between two pieces would be lost, because no thread waits then. So the end of a piece is reported
+ * as a spurious wake-up, which POSIX permits and after which the caller checks its predicate again.
  *
- * Out of reach: raw futex system calls with a timeout, socket timeouts set by setsockopt, and timers in
- * the kernel (timerfd, setitimer) that were armed before the clock changed its pace. CPU-time clocks stay
- * real on purpose.
+ * Not scaled: raw futex system calls with a timeout, socket timeouts set by setsockopt, and timers in
+ * the kernel (timerfd, setitimer) that were armed before the switch. CPU-time clocks stay real on purpose.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -43,12 +42,12 @@
 #define NS_PER_S INT64_C(1000000000)
 #define NS_PER_MS INT64_C(1000000)
 #define NS_PER_US INT64_C(1000)
-#define FAR_FUTURE_NS (INT64_MAX / 4) /* 73 years: later deadlines are "never", and sums of two still fit */
+#define FAR_FUTURE_NS (INT64_MAX / 4) /* 73 years: later deadlines mean "never"; a sum of two does not overflow */
 #define LONGEST_BLIND_WAIT_NS (10 * NS_PER_MS)
 
 /* ---- libc's own functions --------------------------------------------------------------- */
 
-/* pthread_cond_timedwait is not among them: libc has two versions of it, and clockwait does its work. */
+/* Without pthread_cond_timedwait, of which libc has two versions: pthread_cond_clockwait replaces it. */
 #define LIBC_FUNCTIONS(X)                                                                     \
     X(clock_gettime)                                                                          \
     X(clock_nanosleep)                                                                        \
@@ -117,8 +116,8 @@ static void start_up(void)
 }
 
 /*
- * Follow the page at `path` from now on: for a fork of a process that was started without one. Call it while
- * the fork has a single thread. Returns 0; -1 where there is no such page.
+ * Follow the page at `path` from now on. For a fork of a process that was started without a page; call it while
+ * the fork has a single thread. Returns 0, or -1 if there is no such page.
  */
 int scaled_clock_follow(const char *path)
 {
@@ -130,7 +129,7 @@ int scaled_clock_follow(const char *path)
     return 0;
 }
 
-/* Other libraries' constructors may ask for the time before ours has run, so every entry passes here. */
+/* Constructors of other libraries may read a clock before this one has run, so every function calls this first. */
 __attribute__((constructor)) static void ensure_started(void)
 {
     if (!atomic_load_explicit(&is_started, memory_order_acquire))
@@ -196,7 +195,7 @@ static int64_t scaled_from_real(int64_t real_ns)
     return page->switch_ns + (int64_t)((double)(real_ns - page->switch_ns) * page->scale);
 }
 
-/* Rounded up by a nanosecond, so that who wakes at the result never finds the scaled time short of it. */
+/* Rounded up by a nanosecond: a thread that wakes at the result never reads a scaled time before scaled_ns. */
 static int64_t real_from_scaled(int64_t scaled_ns)
 {
     if (!is_set() || scaled_ns <= page->switch_ns)
@@ -244,8 +243,8 @@ static int64_t deadline_on(clockid_t clock, const struct timespec *t)
 }
 
 /*
- * The clock of an absolute time whose clock is not told: a condition variable's, a timerfd's. The two
- * candidates lie the age of the Unix epoch apart, and no deadline that matters is decades away from now.
+ * The clock of an absolute time of unknown clock, as with a condition variable or a timerfd. The times of the two
+ * candidates differ by decades, the age of the Unix epoch, and no real deadline is decades away.
  */
 static clockid_t clock_of(const struct timespec *t)
 {
@@ -295,7 +294,7 @@ int timespec_get(struct timespec *t, int base)
 struct piece {
     struct timespec until;     /* real CLOCK_MONOTONIC */
     struct timespec duration;  /* the same, from now */
-    bool is_last;              /* it ends at the deadline, not just at a look at the page */
+    bool is_last;              /* it ends at the deadline; other pieces end only to read the page again */
 };
 
 static struct piece next_piece(int64_t deadline_ns)
@@ -389,7 +388,7 @@ int sem_timedwait(sem_t *restrict semaphore, const struct timespec *restrict t)
     return sem_clockwait(semaphore, CLOCK_REALTIME, t);
 }
 
-/* Mutexes and both sides of a read-write lock differ in the function alone. */
+/* Mutexes and both sides of a read-write lock differ only in libc's function. */
 #define LOCK_UNTIL(lock_function, lock, clock, t)                                             \
     do {                                                                                      \
         if (!scaling() || !is_scaled_clock(clock) || !is_valid(t))                            \
@@ -460,7 +459,7 @@ int poll(struct pollfd *fds, nfds_t count, int timeout_ms)
     return ppoll(fds, count, timeout_ms < 0 ? NULL : &timeout, NULL);
 }
 
-/* What fortified programs call instead of poll and ppoll: the same with the array's size in bytes. */
+/* Fortified programs call these instead of ppoll and poll; `size` is the array's size in bytes. */
 int __ppoll_chk(struct pollfd *fds, nfds_t count, const struct timespec *timeout, const sigset_t *mask,
                 size_t size)
 {
@@ -476,13 +475,13 @@ int __poll_chk(struct pollfd *fds, nfds_t count, int timeout_ms, size_t size)
     return poll(fds, count, timeout_ms);
 }
 
-/* A piece that ends without news has emptied the sets, so each piece asks with the caller's again. */
+/* A pselect that times out empties the sets, so each piece starts with the caller's sets again. */
 static int select_until(int count, fd_set *sets[3], int64_t deadline, const sigset_t *mask)
 {
-    fd_set asked[3];
+    fd_set requested[3];
     for (int i = 0; i < 3; i++)
         if (sets[i])
-            asked[i] = *sets[i];
+            requested[i] = *sets[i];
     for (;;) {
         struct piece piece = next_piece(deadline);
         int ready = libc.pselect(count, sets[0], sets[1], sets[2], &piece.duration, mask);
@@ -490,7 +489,7 @@ static int select_until(int count, fd_set *sets[3], int64_t deadline, const sigs
             return ready;
         for (int i = 0; i < 3; i++)
             if (sets[i])
-                *sets[i] = asked[i];
+                *sets[i] = requested[i];
     }
 }
 
@@ -518,12 +517,12 @@ int select(int count, fd_set *restrict reads, fd_set *restrict writes, fd_set *r
     int ready = pselect(count, reads, writes, exceptions, &t, NULL);
     int error = errno;
     clock_gettime(CLOCK_MONOTONIC, &now);
-    *timeout = to_timeval(deadline - to_ns(&now)); /* Linux reports what was left, and programs rely on it */
+    *timeout = to_timeval(deadline - to_ns(&now)); /* Linux returns the remaining time, and programs rely on it */
     errno = error;
     return ready;
 }
 
-/* epoll counts real milliseconds, too coarse at a high scale; its descriptor can be polled in nanoseconds. */
+/* epoll has a timeout in real milliseconds, too coarse at a high scale; ppoll on its descriptor has nanoseconds. */
 int epoll_pwait(int epoll, struct epoll_event *events, int capacity, int timeout_ms, const sigset_t *mask)
 {
     if (!scaling() || timeout_ms <= 0)
@@ -564,7 +563,7 @@ int sigtimedwait(const sigset_t *restrict set, siginfo_t *restrict info,
 
 /* ---- timers in the kernel --------------------------------------------------------------- */
 
-/* A time left on the scaled clock in real nanoseconds, and back; 0 stays 0, for it means "not armed". */
+/* Convert a remaining time from the scaled clock to the real one, and back; 0 stays 0, because it means "not armed". */
 static int64_t real_left(int64_t scaled_ns)
 {
     if (scaled_ns == 0)
@@ -590,7 +589,7 @@ int timerfd_settime(int fd, int flags, const struct itimerspec *value, struct it
         if (first <= 0)
             first = 1;
     }
-    /* Relative, whatever was asked: so it does not matter which clock the kernel's timer counts on. */
+    /* Always relative, so that the clock of the kernel's timer does not matter. */
     struct itimerspec real = {.it_interval = to_timespec(real_left(to_ns(&value->it_interval))),
                               .it_value = to_timespec(real_left(first))};
     int result = libc.timerfd_settime(fd, 0, &real, old);
@@ -618,7 +617,7 @@ static struct itimerval scaled_itimer(const struct itimerval *real)
                               to_timeval(scaled_left(timeval_to_ns(&real->it_value)))};
 }
 
-/* Kernel timers count in microseconds; what is shorter must not become 0, which would disarm. */
+/* These timers count in microseconds; a shorter time must not become 0, which would disarm the timer. */
 static struct timeval real_timeval(const struct timeval *scaled)
 {
     int64_t left = real_left(timeval_to_ns(scaled));

@@ -1,8 +1,8 @@
-"""Records the transcripts that test_evidence.py judges, all or some.
+"""Records all or some of the transcripts for test_evidence.py.
 
 PYTHONPATH=tests python tests/arena/autograder/record_transcripts.py [EXERCISE …] [EXERCISE:SCENARIO …]
 
-Needed when a scenario has changed. It takes an arena for each submission, one after the other: a minute or two an
+Run it after a change of a scenario. It opens an arena for each submission, one after the other: a minute or two an
 exercise on a quiet machine.
 """
 
@@ -23,7 +23,7 @@ from autograder.engine.simulation_lag import RETRY_LAG, lateness
 from autograder.engine.submission_arenas import SubmissionArenas
 from ros_runtime.project import PROJECT
 
-# One that passes everything, and a few that go wrong in different ways: an answer that is wrong, one that never comes,
+# A submission that passes everything, and a few with different faults: an answer that is wrong, one that never comes,
 # a node that ends.
 SUBMISSIONS_OF = {
     "balance_controller": [
@@ -104,7 +104,7 @@ SUBMISSIONS_OF = {
 
 
 def main(wanted: list[str]) -> None:
-    """Record what is asked for, or all."""
+    """Record the requested transcripts, or all."""
     for each in wanted or exercise_names():
         name, _, scenario = each.partition(":")
         for submission in SUBMISSIONS_OF[name]:
@@ -114,7 +114,7 @@ def main(wanted: list[str]) -> None:
 
 
 def write_needed(exercise: str) -> None:
-    """Write without which events each check does not pass; read the difference before you commit it."""
+    """Write the events that each check needs to pass; review the diff before you commit it."""
     from test_evidence import NEEDED, needed_by, recorded, reference
 
     sound = (case for case in recorded(exercise) if case.submission in reference(exercise))
@@ -135,7 +135,7 @@ def _record(exercise: Exercise, known: KnownSubmission, only: str) -> None:
 
 
 def _carry_out(run: ArenaRun, arenas: SubmissionArenas) -> Transcript:
-    """Run a scenario until nothing was late in it, more slowly each time the machine was too busy."""
+    """Run a scenario until the simulator kept up; lower the scale each time the machine was too busy."""
     for scale in (5.0, 5.0, 5.0, 2.0, 2.0, 1.0):
         transcript = run_in_arena(replace(run, scale=scale), arenas=arenas)
         if not run.scenario.timed or lateness(transcript) <= RETRY_LAG:

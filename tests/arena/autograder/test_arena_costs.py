@@ -1,4 +1,4 @@
-"""`course bench --arena`: what is measured and what is written; never how much it is."""
+"""`course bench --arena`: which costs are measured and written, without their values."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_costs_are_written_as_the_contract_says_and_read_back(tmp_path):
     assert Costs.from_json(record).to_json() == costs.to_json()
 
 
-def test_two_runs_stand_side_by_side_as_ratios(tmp_path, monkeypatch):
+def test_two_runs_are_compared_as_ratios(tmp_path, monkeypatch):
     now, before = (
         Costs(submissions=[SubmissionCost("walk", cpu, wall, 2.0)]) for cpu, wall in ((3, 5), (6, 20))
     )
@@ -76,5 +76,5 @@ def test_two_runs_stand_side_by_side_as_ratios(tmp_path, monkeypatch):
     assert json.loads((tmp_path / "now.json").read_text()) == json.loads(json.dumps(now.to_json()))
 
 
-def test_the_sound_server_of_the_fairness_rows_is_there():
+def test_the_correct_server_of_the_fairness_rows_exists():
     assert known_submission(overview.EXERCISE, overview.THREADED).kind == "correct"

@@ -1,4 +1,4 @@
-"""Submissions whose verdict is known get that verdict: the proof that the grader grades.
+"""Each known submission gets its known verdict.
 
 `./course audit` grades all of them with every check, and counts what fails twice. Here are as many as prove every
 check, the faulty ones with the checks that must catch them; what fails counts at the first look. They are graded a few

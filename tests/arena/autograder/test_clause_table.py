@@ -1,4 +1,4 @@
-"""The table of clauses is what the recorded transcripts show, and every clause is held by something."""
+"""The table of clauses matches the recorded transcripts, and every clause is tested by a check or an obligation."""
 
 import pytest
 
@@ -10,11 +10,11 @@ TABLES = PROJECT / "docs" / "clauses"
 
 
 @pytest.mark.parametrize("exercise", exercise_names())
-def test_the_table_is_what_transcripts_show(exercise):
+def test_the_table_matches_the_transcripts(exercise):
     table = (TABLES / f"{exercise}.md").read_text()
     assert table == clause_table(exercise), "record_transcripts.py writes it anew"
 
 
 @pytest.mark.parametrize("exercise", exercise_names())
-def test_something_holds_every_clause(exercise):
+def test_every_clause_is_covered(exercise):
     assert not [number for number, judged in judged_by_clause(exercise).items() if not judged]

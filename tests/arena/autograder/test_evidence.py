@@ -1,7 +1,7 @@
-"""Absence of evidence never passes: checks judge recorded transcripts of which something is missing.
+"""Absence of evidence never passes: checks judge recorded transcripts with missing events.
 
-Whatever is lost, doubled or late, the outcome is a verdict with a sentence, never a check that breaks; and with
-something lost or doubled nothing passes that failed before.
+Whatever event is lost, duplicated or late, each check returns a verdict with a sentence and raises nothing; and with
+an event lost or duplicated no check passes that failed before.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from autograder.engine.judging import judge
 from autograder.engine.verdict import CheckVerdict
 
 EXERCISES = exercise_names()
-NEEDED = "needed.json"  # beside an exercise's transcripts; record_transcripts.py writes it
-# These come all the time: of a row of them the ends are enough.
+NEEDED = "needed.json"  # in the folder of an exercise's transcripts, written by record_transcripts.py
+# These events are frequent: the ends of a sequence of them are enough.
 RUNS_OF = (
     *("joints_published", "imu_published", "battery_published", "robot_peers", "woken_late"),
     *("joints_truth", "feet_truth", "hand_truth", "object_truth"),
@@ -37,12 +37,10 @@ ANSWERS = (
     *("service_answered", "goal_answered", "cancel_answered", "result_received", "reply_sent"),
     "arm_reported",
 )
-MOST_PLACES = (
-    40  # of a transcript that one check is tried at: the others of its checks are tried at other ones
-)
+MOST_PLACES = 40  # events of a transcript that are changed for one check; other checks get other events
 DELAYS = (0.4, 2.0, 30.0)  # s, taken in turn
-# What a program does by itself. Without one of these a record is that of another program, and that may be a sound one.
-OWN_DOING = (
+# Events that a program causes by itself. Without one of them a record is that of another program, maybe a correct one.
+PROGRAM_EVENTS = (
     *("node_output", "node_exited", "node_killed", "request_received"),
     *("feedback_received", "status_seen"),
 )
@@ -60,7 +58,7 @@ def verdict(case):
 
 @cache
 def changed(case, change) -> list[tuple[str, CheckVerdict]]:
-    """Judge a case again and again, with one of its transcripts changed at its places; return what and the verdict."""
+    """Judge a case with each change of one of its transcripts; return each change with the verdict."""
     return [
         (f"{case}, {transcript.scenario} {what}", without_log(judge(case.check, transcripts)))
         for index, transcript in enumerate(case.transcripts)
@@ -77,12 +75,12 @@ def places_for(case, transcript) -> list[int]:
 
 
 def without_log(verdict: CheckVerdict) -> CheckVerdict:
-    """Leave out the long text, for there are a hundred thousand of them."""
+    """Remove the verdict's long text, because there are a hundred thousand verdicts."""
     return replace(verdict, log="")
 
 
 def places(transcript) -> list[int]:
-    """Return the indices of its events; of a row of those that come all the time, the ends of each kind."""
+    """Return the indices of the events; of a sequence of frequent events, only the ends of each kind."""
     kinds = [event.kind for event in transcript.events]
     first = beginnings(kinds)
     last = [len(kinds) - 1 - index for index in beginnings(kinds[::-1])]
@@ -90,7 +88,7 @@ def places(transcript) -> list[int]:
 
 
 def beginnings(kinds) -> list[int]:
-    """Return where something happens, and where each kind of a row of what comes all the time is first seen in it."""
+    """Return the indices of rare events, and of the first event of each kind in a sequence of frequent events."""
     found = []
     row: set[str] = set()
     for index, kind in enumerate(kinds):
@@ -111,7 +109,7 @@ def prefixes(transcript, places):
 
 
 def ended_prefixes(transcript, places):
-    """As if the program had left there by itself, and the scenario had ended with it."""
+    """Return the transcript as if the program and the scenario had ended there."""
     for what, prefix in prefixes(transcript, places):
         events = [event for event in prefix.events if event.kind != "scenario_ended"]
         t = events[-1].t if events else 0.0
@@ -122,7 +120,7 @@ def ended_prefixes(transcript, places):
 
 
 def is_its_own_choice(run) -> bool:
-    """Whether a program may leave now: it has begun, nobody has ended it, and the robot has done what it was told."""
+    """Whether the program may end here: it has started, is not yet ended, and the robot has executed all commands."""
     commands = len(run.all(ev.CommandSent)), len(run.all(ev.RobotCommanded))
     ends = any(map(run.first, (ev.NodeExited, ev.NodeSignalled)))
     return run.first(ev.NodeStarted) is not None and not ends and commands[0] == commands[1]
@@ -149,7 +147,7 @@ def without_a_kind(transcript, _places):
 
 
 def lacking(transcript, kind):
-    """Without a command that was never sent nobody waits for its effect."""
+    """The transcript without events of a kind; without the effects of commands, it also lacks the sent commands."""
     kinds = (kind, "command_sent") if kind == "robot_commanded" else (kind,)
     return replace(transcript, events=[event for event in transcript.events if event.kind not in kinds])
 
@@ -185,7 +183,7 @@ def require_a_verdict(what, verdict):
 
 
 @pytest.mark.parametrize("exercise", EXERCISES)
-def test_whole_transcripts_have_the_verdicts_that_are_known(exercise):
+def test_complete_transcripts_have_their_known_verdicts(exercise):
     known = {known.path.stem: known for known in known_submissions(exercise)}
     for case in recorded(exercise):
         submission = known[case.submission]
@@ -197,7 +195,7 @@ def test_whole_transcripts_have_the_verdicts_that_are_known(exercise):
 
 
 def unmet(case, submission):
-    """Whether the check needs one that fails for the submission."""
+    """Whether the check depends on one that fails for the submission."""
     checks = {check.id: check for check in load_exercise(submission.exercise, hidden=True).checks}
     needs = [need.id for need in case.check.needs]
     for need in needs:
@@ -217,11 +215,11 @@ def test_there_is_always_a_verdict_and_nothing_passes_that_failed(exercise, chan
 
 
 def own_doing(what):
-    return re.search(rf"where it leaves|(?:without|with)(?: any)? (?:{'|'.join(OWN_DOING)})\b", what)
+    return re.search(rf"where it leaves|(?:without|with)(?: any)? (?:{'|'.join(PROGRAM_EVENTS)})\b", what)
 
 
 @pytest.mark.parametrize("exercise", EXERCISES)
-def test_a_flood_or_a_record_that_breaks_off_never_passes(exercise):
+def test_a_flood_or_a_truncated_record_never_passes(exercise):
     for case in recorded(exercise):
         broken_off = [judged for judged in changed(case, prefixes) if "to its end" not in judged[0]]
         assert broken_off
@@ -241,7 +239,7 @@ def test_a_program_that_leaves_at_any_moment_is_judged(exercise):
 
 
 @pytest.mark.parametrize("exercise", EXERCISES)
-def test_what_ends_before_something_that_is_needed_does_not_pass(exercise):
+def test_a_record_that_ends_before_a_needed_event_does_not_pass(exercise):
     for case in recorded(exercise):
         if verdict(case).status == "passed":
             needed = [
@@ -300,7 +298,7 @@ def reference(exercise):
     return [known.path.stem for known in known_submissions(exercise) if known.kind == "correct"]
 
 
-# What only a real arena can tell: where a node stood, whom it subscribes to, what reached the robot.
+# Only a real arena has these: the node's running line, its subscriptions, and the messages that the robot received.
 SAID = {
     (
         "battery_service",
@@ -330,7 +328,7 @@ def test_a_recorded_failure_names_what_the_arena_saw(exercise, submission, check
 
 
 def slowed(transcript) -> Transcript:
-    """The same run of a robot that needs twice the time for everything."""
+    """The same run with a robot that takes twice the time for every motion."""
     robots = [
         replace(robot, t=2 * robot.t, speed=robot.speed / 2, turn_rate=robot.turn_rate / 2)
         for robot in transcript.ground_truth

@@ -1,4 +1,4 @@
-"""A sample of the faults that are made of correct submissions loses points (`course audit --generated` grades more)."""
+"""A sample of mutants of correct submissions loses points (`course audit --generated` grades more of them)."""
 
 import pytest
 from rich.console import Console

@@ -1,4 +1,4 @@
-"""Ctrl-C means to a student's node what it means at home, also where a script has started the grader.
+"""Ctrl-C ends a student's node as in a terminal, also if a script has started the grader.
 
 A program that a script starts in the background (`course grade … &`) ignores SIGINT, and its children inherit that.
 """

@@ -1,4 +1,4 @@
-"""The arena of a submission: what its scenarios share, and what they and other submissions never see of each other."""
+"""The arena of a submission: what its scenarios share, and how it is separated from other scenarios and submissions."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ pytestmark = pytest.mark.skipif(
 QUIZ = Exercise("patterns", exercises_folder() / "patterns", (), False)
 PROGRAM = Scenario("print_answers", robot=None, student="program")
 
-# It leaves a process that cannot be interrupted, files, a socket and a segment of memory, and looks for all of them.
+# It leaves a process that ignores signals, files, a socket and shared memory, and searches for all of them.
 LEAVES_TRACES = """
 import os, signal, socket, sys, time
 me = str(os.getpid())
@@ -72,7 +72,7 @@ def printed(transcript):
     return transcript.output("stdout").splitlines()
 
 
-def test_a_scenario_finds_nothing_of_the_one_before():
+def test_a_scenario_finds_nothing_of_the_previous_one():
     with SubmissionArenas(QUIZ.scenario_file) as arenas:
         runs = [printed(run(LEAVES_TRACES, arenas)) for _ in range(3)]
     for lines in runs:
@@ -123,7 +123,7 @@ while time.process_time() < 0.5:
     assert usage.peak_memory_mib >= 190
 
 
-def test_what_children_use_is_counted_whoever_buries_them():
+def test_usage_of_child_processes_is_counted_whichever_process_reaps_them():
     code = """
 import os, signal, time
 try:
@@ -175,14 +175,14 @@ except ChildProcessError:
     ],
     ids=["files", "sockets", "TCP"],
 )
-def test_what_the_kernel_has_no_limit_for_is_limited(code, reason):
+def test_resources_without_a_kernel_limit_are_limited(code, reason):
     with SubmissionArenas(QUIZ.scenario_file) as arenas:
         killed = run(code, arenas).first(ev.NodeKilled)
     assert killed, reason
     assert re.search(reason, killed.reason)
 
 
-def test_the_waiting_of_processes_for_each_other_is_not_summed_up():
+def test_waiting_times_of_parallel_processes_are_not_added():
     busy = (
         "import os, time\nfor _ in range(4): os.fork()\n"
         "until = time.monotonic() + 5.0\nwhile time.monotonic() < until: pass"

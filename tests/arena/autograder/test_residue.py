@@ -1,4 +1,4 @@
-"""After hostile submissions nothing is left on the machine, and the next submission's grade is as without them."""
+"""Hostile submissions leave nothing on the machine and do not change the next submission's grade."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ HOSTILE = (
 AT_FIRST = (
     "server_appears",
     "answers_with_the_last_message",
-)  # checks that tell whether the next one is unharmed
+)  # checks that show whether the next submission is unaffected
 
 
 def caught_only(known: KnownSubmission) -> Exercise:
-    """The exercise with the checks that must catch it, and those they need; the audit's test makes all of them."""
+    """The exercise with only the checks that must catch the submission, and those they need."""
     exercise = load_exercise(known.exercise, hidden=True)
     needed = {need.id for check in exercise.checks if check.id in known.caught_by for need in check.needs}
     wanted = {*known.caught_by, *needed}
@@ -71,7 +71,7 @@ def test_each_kind_of_residue_is_seen() -> None:
             process.communicate()
 
 
-def test_an_orphan_is_seen() -> None:
+def test_an_orphan_process_is_detected() -> None:
     orphan = "import os, time\nif os.fork() == 0:\n    os.setsid(); time.sleep(60)"
     with leftovers(timeout=0.2) as left:
         subprocess.run([sys.executable, "-c", orphan], check=True)

@@ -1,4 +1,4 @@
-"""A scripted action, as a client of rclpy's meets it in an arena: good, bad, and in the middle of it gone."""
+"""A scripted action, used by an rclpy client in an arena: correct, faulty, and ended during a goal."""
 
 from __future__ import annotations
 
@@ -181,7 +181,7 @@ def arenas(exercise: Exercise) -> Iterator[SubmissionArenas]:
 
 
 def run(exercise: Exercise, arenas: SubmissionArenas, scenario: str) -> tuple[Transcript, list[str]]:
-    """What was recorded, and what the client printed."""
+    """The transcript, and the output of the client."""
     transcript = run_in_arena(
         ArenaRun(exercise, {f"{NAME}.py": CLIENT.encode()}, program(scenario)), arenas=arenas
     )
@@ -211,7 +211,7 @@ def test_a_goal_is_rejected(exercise: Exercise, arenas: SubmissionArenas) -> Non
     assert not goal.is_accepted
 
 
-def test_a_result_is_forgotten(exercise: Exercise, arenas: SubmissionArenas) -> None:
+def test_an_expired_result_has_the_status_unknown(exercise: Exercise, arenas: SubmissionArenas) -> None:
     transcript, printed = run(exercise, arenas, "forgetful")
     assert f"result ({GoalStatus.STATUS_UNKNOWN}, 0)" in printed
     (goal,) = transcript.scripted_goals("walk_to")
@@ -245,7 +245,7 @@ def test_a_cancel_is_answered(
     assert goal.finished.status == status
 
 
-def test_a_cancel_stays_unanswered_and_the_goal_goes_on(exercise: Exercise, arenas: SubmissionArenas) -> None:
+def test_an_unanswered_cancel_leaves_the_goal_running(exercise: Exercise, arenas: SubmissionArenas) -> None:
     transcript, printed = run(exercise, arenas, "deaf_to_cancels")
     assert "cancel None" in printed
     assert f"result ({GoalStatus.STATUS_SUCCEEDED}, 0)" in printed
@@ -263,9 +263,7 @@ def test_a_server_dies_with_its_goal(exercise: Exercise, arenas: SubmissionArena
     assert goal.finished is goal.result_sent is None
 
 
-def test_a_program_is_typed_to_published_to_and_interrupted(
-    exercise: Exercise, arenas: SubmissionArenas
-) -> None:
+def test_a_program_gets_input_messages_and_an_interrupt(exercise: Exercise, arenas: SubmissionArenas) -> None:
     transcript, printed = run(exercise, arenas, "typing")
     assert printed == ["latched", "heard q", "end of input", "interrupted"]
     assert [event.line for event in transcript.all(ev.NodeTyped)] == ["q", None]

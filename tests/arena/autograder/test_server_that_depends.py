@@ -1,4 +1,4 @@
-"""A server that asks the grader's service, reads its topic and publishes: what a stage offers, hears and records."""
+"""A server that calls the grader's service, subscribes to its topic and publishes: all of this is recorded."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ rclpy.spin(node)
 """
 
 
-def test_a_server_meets_what_the_stage_offers_and_is_heard(tmp_path) -> None:
+def test_a_server_uses_the_stages_service_and_topic_and_its_messages_are_recorded(tmp_path) -> None:
     (tmp_path / "scenarios.py").write_text(SCENARIOS)
     exercise = Exercise(NAME, tmp_path, (), False)
     scenario = Scenario("asks_and_tells", robot=None)

@@ -1,4 +1,4 @@
-"""Arenas of an audit: the faulty submissions of an exercise share them, and nothing of them is left after the last."""
+"""Arenas of an audit: the faulty submissions of an exercise share them, and all are closed after the last one."""
 
 import os
 

@@ -1,4 +1,4 @@
-"""Without namespaces a node shares the network with the whole machine, and what others do there costs it nothing."""
+"""Without namespaces a node shares the network with the machine; connections of other processes cost it no points."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ctrl-C while scenarios run: the batch ends soon, says how to go on, and leaves nothing behind."""
+"""Ctrl-C while scenarios run: the batch ends soon, prints how to resume, and leaves nothing behind."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ COMMAND = (Path(sys.executable).with_name("course"), "grade", "submitted", "--ou
 
 
 def running(grader: psutil.Process) -> int:
-    """How many students' programs run."""
+    """The number of students' programs that run."""
     found = 0
     for process in grader.children(recursive=True):
         try:
             found += process.cmdline()[1:2] == [FILE]
-        except psutil.Error:  # it has ended just now
+        except psutil.Error:  # the process has just ended
             continue
     return found
 
@@ -50,7 +50,7 @@ def test_ctrl_c_ends_the_scenarios_that_run_and_leaves_nothing(tmp_path: Path) -
         )
         with grader:
             while grader.poll() is None and running(psutil.Process(grader.pid)) < 2:
-                time.sleep(0.05)  # between two looks
+                time.sleep(0.05)  # between two polls
             grader.send_signal(signal.SIGINT)
             asked = time.monotonic()
             said, _ = grader.communicate(timeout=60)

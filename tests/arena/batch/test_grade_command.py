@@ -54,7 +54,7 @@ def hand_in(folder: Path, student: str, content: bytes) -> None:
 
 
 def assert_pages(out: Path, right: dict, wrong: dict) -> None:
-    """The class page names both; a failed check is drawn for its student, also when its grade is an earlier run's."""
+    """The class page names both students; the failed check has its drawing, also if its grade is of an earlier run."""
     class_page = (out / "class.html").read_text()
     assert f"{right['score']}/{right['max_score']}" in class_page
     failed = next(check for check in wrong["checks"] if check["status"] == "failed" and not check["hidden"])
@@ -67,7 +67,7 @@ def assert_pages(out: Path, right: dict, wrong: dict) -> None:
 
 
 def assert_recorded(out: Path, first: dict, anna: dict, bert: dict) -> None:
-    """The second run went on with the seed of the first, and its record has what the first run found of both."""
+    """The second run used the seed of the first, and its record has the first run's results of both students."""
     second = json.loads((out / "batch.json").read_text())
     assert second["seed"] == first["seed"] == anna["seed"] == bert["seed"]
     assert second["submissions"][:2] == first["submissions"]
@@ -89,13 +89,13 @@ def points(folder: Path, exercise: str = "battery_service") -> dict[str, float]:
 
 
 def class_rows(out: Path) -> dict[str, str]:
-    """What the class page's last table says of each student."""
+    """The rows of the class page's last table, by student."""
     page = BeautifulSoup((out / "class.html").read_text(), "html.parser")
     rows = page.find(id="students").find_next("tbody").find_all("tr")
     return {row.find("th").get_text(): str(row) for row in rows}
 
 
-def test_the_reference_gets_full_marks_the_starter_some_and_a_second_run_goes_on(tmp_path):
+def test_the_reference_gets_full_marks_the_starter_some_and_a_second_run_resumes(tmp_path):
     submitted, out = tmp_path / "submitted", tmp_path / "graded"
     hand_in(submitted, "anna", (ROOT / "solutions" / NOTEBOOK).read_bytes())
     hand_in(submitted, "bert", (ROOT / "exercises" / NOTEBOOK).read_bytes())
@@ -173,7 +173,7 @@ def test_a_part_that_is_graded_again_leaves_the_rest_and_without_isolation_all_i
     assert points(out, "patterns") == {"anna": full, "bert": 0}
     rows = class_rows(out)
 
-    for student in ("anna", "bert"):  # what of this is not asked for is not graded
+    for student in ("anna", "bert"):  # what is not requested is not graded
         (submitted / student / "patterns.py").write_text(RIGHT if student == "bert" else "print()")
         (submitted / student / NOTEBOOK).write_bytes(b"still not a notebook")
     part = ("--student", "bert", "--exercise", "patterns")
@@ -239,4 +239,4 @@ def test_shards_are_merged_into_one_gradebook_and_an_absent_one_is_named(tmp_pat
     assert [len(record["submissions"]) for record in records] == [2, 1, 3]
     assert "missing: shard 2/2 is not among the folders" in partly.stdout
     assert "bert's battery_service has no grade" in partly.stdout
-    assert course("merge", *shards, shards[0], "--out", out).returncode == 0  # the same folder twice is one
+    assert course("merge", *shards, shards[0], "--out", out).returncode == 0  # a duplicate counts once

@@ -1,4 +1,4 @@
-"""A batch that is killed at any moment goes on with --resume: no grade is lost, none is there twice."""
+"""After a kill at any moment a batch continues with --resume: no grade is lost or duplicated."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from nbgrader.api import Gradebook
 
 EXERCISE = "battery_service"
 STUDENTS = [f"student{number}" for number in range(3)]
-# Of each run what it is about to do when it is killed, and for which time: from the batch's first file to its last.
+# For each run: the audit event at which it is killed, and its count, from the batch's first file to its last.
 KILLS = [
     ("os.rename", "batch.json", 1),
     ("os.rename", "cache/*", 2),
@@ -25,8 +25,8 @@ KILLS = [
     ("os.rename", "sources/*", 2),
     ("open", "class.html", 1),
 ]
-# Imports everything once, then forks for each run of `course grade`; a function that gives all points is the arenas.
-# Python tells what it is about to do (audit events); what is written as a whole appears by a rename.
+# Imports everything once, then forks for each run of `course grade`. A function that gives full marks replaces arenas.
+# Python's audit events announce each operation; a file that is written atomically appears by a rename.
 RUNS = """
 import fnmatch, json, os, signal, sys
 from autograder.classroom.batch import job
@@ -66,7 +66,7 @@ with open(folder + "/statuses", "w") as file:
 """
 
 
-def test_ten_kills_lose_and_double_nothing(tmp_path: Path) -> None:
+def test_after_ten_kills_no_grade_is_lost_or_duplicated(tmp_path: Path) -> None:
     for student in STUDENTS:
         (tmp_path / "submitted" / student).mkdir(parents=True)
         (tmp_path / "submitted" / student / f"{EXERCISE}.py").write_text(f"name = {student!r}\n")
@@ -91,5 +91,5 @@ def test_ten_kills_lose_and_double_nothing(tmp_path: Path) -> None:
     with Gradebook(f"sqlite:///{tmp_path / 'graded/gradebook.db'}") as db:
         entered = {each.student.id: each.score for each in db.assignment_submissions(EXERCISE)}
     assert entered == dict.fromkeys(STUDENTS, grades[0]["score"])
-    # one grade was kept when the second kill came, so all others at most twice
+    # one grade was stored before the second kill, so each other submission is graded at most twice
     assert len((tmp_path / "log").read_text().splitlines()) <= 2 * len(STUDENTS) - 1

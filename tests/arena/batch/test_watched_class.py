@@ -1,4 +1,4 @@
-"""`course grade --watch`: what is handed in is graded as it comes, until Ctrl-C. A function stands for the arenas."""
+"""`course grade --watch` grades submissions as they arrive, until Ctrl-C. A function replaces the arenas."""
 
 from __future__ import annotations
 
@@ -83,12 +83,12 @@ def ctrl_c(process: subprocess.Popen[str]) -> tuple[int, str]:
 
 
 def until(process: subprocess.Popen[str], happened: Callable[[], Any]) -> None:
-    """Wait for an event, as long as the watcher lives, for two minutes."""
+    """Wait for an event while the watcher runs, for at most two minutes."""
     end = time.monotonic() + 120.0
     while not happened():
         assert process.poll() is None, process.communicate()[0]
         assert time.monotonic() < end
-        time.sleep(0.05)  # between two looks
+        time.sleep(0.05)  # between two polls
 
 
 def hand_in(folder: Path, student: str, text: str) -> None:
@@ -105,7 +105,7 @@ def record(folder: Path) -> dict[str, Any]:
 
 
 def scores(folder: Path) -> dict[str, float]:
-    """By student, from grades.json, once the pages of all of them are there, too."""
+    """The scores by student, from grades.json, as soon as all pages exist, too."""
     path = folder / "graded/grades.json"
     grades = json.loads(path.read_text()) if path.exists() else []
     return (
@@ -120,7 +120,7 @@ def scores(folder: Path) -> dict[str, float]:
     )
 
 
-def test_the_latest_of_what_is_handed_in_counts_and_a_second_run_goes_on(tmp_path: Path) -> None:
+def test_the_latest_submission_counts_and_a_second_run_resumes(tmp_path: Path) -> None:
     with watching(tmp_path) as watcher:
         hand_in(tmp_path, "anna", "slow and wrong")
         until(watcher, lambda: in_work(tmp_path))
@@ -155,7 +155,7 @@ def test_the_latest_of_what_is_handed_in_counts_and_a_second_run_goes_on(tmp_pat
     assert record(tmp_path)["seed"] == first["seed"]
 
 
-def test_ctrl_c_ends_what_is_in_work_and_says_what_has_no_grade(tmp_path: Path) -> None:
+def test_ctrl_c_ends_running_gradings_and_names_submissions_without_a_grade(tmp_path: Path) -> None:
     with watching(tmp_path, "--exercise", EXERCISE) as watcher:
         hand_in(tmp_path, "anna", "slow")
         until(watcher, lambda: in_work(tmp_path))
@@ -175,7 +175,7 @@ def test_ctrl_c_ends_what_is_in_work_and_says_what_has_no_grade(tmp_path: Path) 
         (["--watch", "here", "--shard", "1/2"], "give only one"),
     ],
 )
-def test_what_cannot_be_watched_is_an_unusable_argument(
+def test_a_folder_that_cannot_be_watched_is_an_unusable_argument(
     tmp_path: Path, arguments: list[str], words: str
 ) -> None:
     (tmp_path / "here").mkdir()

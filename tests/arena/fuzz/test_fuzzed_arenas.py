@@ -1,4 +1,4 @@
-"""Generated programs in arenas: each is graded, none gets full marks, changes the next grade or leaves anything."""
+"""Generated programs in arenas: each is graded, and none gets full marks, changes the next grade or leaves residue."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from fuzz.readers.all import READERS
 
 @pytest.mark.skipif(not available_isolation().trusted, reason="hidden checks need isolated arenas")
 @pytest.mark.parametrize(("name", "seed"), [("arena-service", 1), ("arena-action", 1), ("arena-service", 2)])
-def test_nothing_is_found_in_an_arena(name: str, seed: int) -> None:
+def test_fuzzing_an_arena_finds_no_error(name: str, seed: int) -> None:
     assert find_problem(name, seed) == ""
 
 
-def test_nothing_is_found_in_recorded_runs_with_other_messages() -> None:
+def test_fuzzing_recorded_runs_finds_no_error() -> None:
     READERS["answers-judged"].run()
 
 

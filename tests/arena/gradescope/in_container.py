@@ -1,4 +1,4 @@
-"""Becomes what root is in a container of Docker's, and runs a program there.
+"""Gives itself the rights of root in a Docker container, and runs a program there.
 
 Only for root, in a mount namespace of its own. Run as `python in_container.py FOLDER PROGRAM…`: FOLDER is then at
 /mnt/autograder. As with Docker's own profile nobody can make namespaces or mount, and root has the rights that
@@ -28,7 +28,7 @@ def mount(*arguments: object) -> None:
 
 
 def show_to_all(shown: list[Path]) -> None:
-    """Replace folders that only root may enter by ones with nothing else in them than what is shown."""
+    """Replace folders that only root may enter by folders that contain only the given paths."""
     kept = {}
     for number, path in enumerate(shown):
         kept[path] = Path(f"/mnt/shown/{number}")
@@ -44,7 +44,7 @@ def show_to_all(shown: list[Path]) -> None:
 
 
 def refuse_namespaces() -> None:
-    """Refuse what Docker's profile for system calls refuses to containers without CAP_SYS_ADMIN."""
+    """Refuse the system calls that Docker's profile refuses to containers without CAP_SYS_ADMIN."""
     rules = pyseccomp.SyscallFilter(pyseccomp.ALLOW)
     for name in (
         "unshare",

@@ -1,4 +1,4 @@
-"""The package grades in a container without namespaces, and what it grades cannot write the score."""
+"""The package grades in a container without namespaces, and a submission cannot write the score."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ CONTAINER = Path(__file__).with_name("in_container.py")
 CORRECT = (exercises_folder() / "patterns/known/correct/lines_of_text.py").read_text()
 NODE = "battery_service"
 
-# The environment of this clone in place of one that setup.sh would make in minutes; everything else is the package's.
+# The environment of this clone, because setup.sh would take minutes to make one; everything else is from the package.
 LAUNCHER = f"""#!/bin/sh
 export PYTHONPATH=/mnt/autograder/source/{TOP}
 exec {sys.executable} -c 'from course_cli.app import main; main()' "$@"
@@ -95,7 +95,7 @@ pytestmark = pytest.mark.skipif(
 
 @dataclass
 class Run:
-    """What run_autograder did."""
+    """The outcome of run_autograder."""
 
     status: int
     results: Any
@@ -105,7 +105,7 @@ class Run:
 
 @pytest.fixture(scope="module")
 def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The package of all exercises; what is handed in says by its name which one it is."""
+    """The package of all exercises; the name of the submitted file selects the exercise."""
     path = tmp_path_factory.mktemp("package") / "autograder.zip"
     write_package(ROOT, path)
     return path
@@ -113,7 +113,7 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def autograder(tmp_path: Path, package: Path) -> Path:
-    """The folder /autograder with the package unpacked as Gradescope does it, and nothing handed in."""
+    """The folder /autograder with the package unpacked as by Gradescope, and no submission."""
     folder = tmp_path / "autograder"
     with zipfile.ZipFile(package) as archive:
         archive.extractall(folder / "source")
@@ -160,7 +160,7 @@ def test_a_sound_node_gets_the_points_of_the_visible_checks(autograder: Path) ->
 
 
 def test_a_program_that_attacks_gets_no_points_and_reaches_nothing(autograder: Path) -> None:
-    (autograder / "results/results.json").write_text(FORGED)  # what an earlier upload would have left
+    (autograder / "results/results.json").write_text(FORGED)  # left by an earlier upload
     graded = run(autograder, HOSTILE.replace("MARK", MARK))
     assert graded.status == 0, graded.said
     assert graded.results["score"] == 0
@@ -170,7 +170,7 @@ def test_a_program_that_attacks_gets_no_points_and_reaches_nothing(autograder: P
     assert outputs.count("refused:") >= 12
     assert "WORKED" not in outputs
     names = [_content(path) for path in Path("/proc").glob("[0-9]*/comm")]
-    assert f"{MARK}\n".encode() not in names  # what it left behind has ended with the grading
+    assert f"{MARK}\n".encode() not in names  # processes that it left behind have ended with the grading
 
 
 def _content(path: Path) -> bytes:
@@ -180,7 +180,7 @@ def _content(path: Path) -> bytes:
         return b""
 
 
-def test_what_cannot_be_read_is_the_students_to_mend(autograder: Path) -> None:
+def test_an_unreadable_submission_is_the_students_failure(autograder: Path) -> None:
     graded = run(autograder, "ab\0cd")
     assert graded.status == 0, graded.said
     assert graded.results["score"] == 0

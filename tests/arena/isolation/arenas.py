@@ -1,6 +1,6 @@
-"""Runs small programs in arenas. Needs the standard library and autograder.isolation alone, so any Python can run it.
+"""Runs small programs in arenas. It needs only the standard library and autograder.isolation, so any Python can run it.
 
-As a program it says, as JSON, what `run_student` saw of the student code on stdin.
+As a program it runs the student code on stdin and prints the result of `run_student` as JSON.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ ENVIRONMENT = {
 
 @dataclass
 class StudentRun:
-    """What a student's program did, as the trusted process in the arena saw it, and how the arena ended."""
+    """The observations of the trusted process about a student's program, and how the arena ended."""
 
     returncode: int
     stdout: str
@@ -71,7 +71,7 @@ class Student:
 
 
 def run_student(student: Student, kind: Kind | None = None, deadline_s: float = 30.0) -> StudentRun:
-    """Run the program in an arena to its end; what the trusted process meets with is an AssertionError here."""
+    """Run the program in an arena to its end; an error of the trusted process raises an AssertionError here."""
     spec = student.spec(ArenaLimits(deadline_s=deadline_s, output_kib=8192))
     report = ArenaProcess(spec, kind or available_isolation().kind).wait()
     assert report.exit_code == 0, f"{report}\n{report.stdout.text}\n{report.stderr.text}"

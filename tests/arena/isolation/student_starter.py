@@ -1,4 +1,4 @@
-"""The trusted process of a test arena: starts the student's program that stdin describes, says what it saw as JSON."""
+"""The trusted process of a test arena: starts the student's program described on stdin, prints observations as JSON."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ def on_line(*line):
 
 
 def wait_for_line(text):
-    """For what a test does meanwhile: wait until the program has printed it."""
+    """Wait until the program has printed a line; for the code that a test runs meanwhile."""
     with printed:
         assert printed.wait_for(lambda: any(text in line[2] for line in lines), 20), lines
 
 
 def start() -> StudentProcess:
-    """Start the program; a test may do it again."""
+    """Start the program; a test may start it several times."""
     program = Program(
         ["node.py", *task["arguments"]],
         workdir_files={"node.py": task["code"].encode(), **{n: t.encode() for n, t in task["files"].items()}},

@@ -1,4 +1,4 @@
-"""What a controller relies on: an arena runs its command, is bounded, and leaves nothing behind."""
+"""An arena runs its command, is limited, and leaves nothing behind; the controller relies on this."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def test_the_deadline_ends_an_arena_that_does_nothing(kind: Kind) -> None:
 
 
 def test_an_arena_that_takes_too_much_memory_is_ended_and_says_so(kind: Kind) -> None:
-    # four processes share the blame: none of them alone passes the limit
+    # four processes together exceed the limit, none of them alone
     hog = "import os; os.fork(); os.fork(); hog = bytearray(os.urandom(1)) * (60 << 20); import time; time.sleep(60)"
     limits = ArenaLimits(deadline_s=30, memory_mib=160)
     report = run_python(hog, kind, limits)
@@ -81,14 +81,14 @@ def test_an_arena_that_takes_too_much_memory_is_ended_and_says_so(kind: Kind) ->
 
 
 def test_memory_within_the_limit_is_measured_and_allowed(kind: Kind) -> None:
-    code = "import time; hog = bytearray(b'x') * (80 << 20); time.sleep(0.5)"  # ten looks long
+    code = "import time; hog = bytearray(b'x') * (80 << 20); time.sleep(0.5)"  # for ten samples
     report = run_python(code, kind, ArenaLimits(30, memory_mib=400))
     assert (report.ended, report.exit_code) == (Ended.EXIT, 0)
     assert 80 < report.peak_memory_mib < 400
 
 
 def test_memory_that_no_process_has_resident_is_counted_by_the_kernel(namespaces: Kind) -> None:
-    """Files in memory that nobody maps: together more than the arena may have for a moment."""
+    """Files in memory that no process maps; together they exceed the arena's limit for a moment."""
     group = make_memory_group(64)
     if group is None:
         pytest.skip("only root can make control groups of memory, where the kernel has them")
@@ -111,7 +111,7 @@ def test_a_caller_can_end_an_arena(kind: Kind) -> None:
     assert arena.poll() is report
 
 
-def test_a_command_that_dies_of_a_signal_is_reported_as_a_shell_would(kind: Kind) -> None:
+def test_a_command_killed_by_a_signal_has_the_exit_status_of_a_shell(kind: Kind) -> None:
     assert run_shell("kill -KILL $$", kind).exit_code == 128 + signal.SIGKILL
 
 
@@ -124,7 +124,7 @@ def test_output_is_kept_up_to_the_limit_only(kind: Kind) -> None:
 
 @pytest.mark.parametrize("end", ["exit", "kill"])
 def test_a_daemon_does_not_outlive_the_arena(kind: Kind, end: str) -> None:
-    """The daemon leaves its session, its parent and its signals behind; only its end closes the pipe."""
+    """The daemon has a new session and parent and ignores signals; only its end closes the pipe."""
     read, write = os.pipe()
     daemon = f"""
 import os, signal, sys
@@ -157,7 +157,7 @@ if {end == "kill"}: signal.pause()
 
 
 def test_an_arena_ends_with_its_controller(kind: Kind, tmp_path: Path) -> None:
-    """However hard the controller dies: only the end of the arena closes the pipe."""
+    """The arena ends even if the controller is killed: only the arena's end closes the pipe."""
     read, write = os.pipe()
     controller = f"""
 from autograder.isolation.arena_process import ArenaSpec, Kind, ArenaProcess
@@ -185,7 +185,7 @@ def test_an_arena_lives_on_when_the_thread_that_started_it_ends(kind: Kind) -> N
     assert arena.wait(30).stdout.text == "alive\n"
 
 
-def test_arenas_side_by_side_do_not_mix(kind: Kind) -> None:
+def test_parallel_arenas_are_separate(kind: Kind) -> None:
     arenas = [ArenaProcess(ArenaSpec(["/bin/echo", str(number)]), kind) for number in range(4)]
     assert [arena.wait(30).stdout.text for arena in arenas] == ["0\n", "1\n", "2\n", "3\n"]
 
@@ -266,7 +266,7 @@ def test_a_mapped_file_is_shared_with_the_arena_while_it_runs(kind: Kind, tmp_pa
 def test_folders_that_only_their_owner_can_read_are_shown_all_the_same(
     namespaces: Kind, tmp_path: Path
 ) -> None:
-    """A clone made under umask 077 in a home of mode 0700: as root, the arena's user is somebody else."""
+    """As with a clone of umask 077 in a home of mode 0700: for root, the arena has another user."""
     folder = tmp_path / "home" / "clone"
     folder.mkdir(parents=True)
     (folder / "module.py").write_text("answer = 42")

@@ -1,4 +1,4 @@
-"""How root steps down without losing sight of its files, also where the kernel gives less than it could."""
+"""How root becomes another user that can still read root's files, also with missing kernel features."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def private(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def staging(private: Path) -> Iterator[Path]:
-    """A folder to mount on; nothing that happened there may be seen after the test, nor on what it was made from."""
+    """A folder to mount on; after the test, neither it nor its source shows any change."""
     folder = Path(tempfile.mkdtemp(dir="/tmp"))
     yield folder
     for left in folder.iterdir():

@@ -1,4 +1,4 @@
-"""What the machine offers is found out by trying, and said."""
+"""The machine's kinds of isolation are found by trying them, and reported."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ def _forget() -> Iterator[None]:
     availability.try_namespaces.cache_clear()
 
 
-def test_people_can_ask_for_no_isolation_and_the_grade_is_labelled(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_isolation_can_be_switched_off_and_the_grade_is_labelled(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COURSE_ISOLATION", "none")
     isolation = available_isolation()
     assert (isolation.kind, isolation.trusted, isolation.label) == (Kind.NONE, False, "untrusted")
     assert "COURSE_ISOLATION=none" in isolation.reason
 
 
-def test_root_can_ask_for_another_user_which_is_not_enough_for_hidden_checks(
+def test_root_can_select_another_user_which_does_not_allow_hidden_checks(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setenv("COURSE_ISOLATION", "another-user")
@@ -38,7 +38,7 @@ def test_root_can_ask_for_another_user_which_is_not_enough_for_hidden_checks(
     assert "only root" in refused.reason
 
 
-def test_an_unknown_wish_is_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_unknown_isolation_is_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COURSE_ISOLATION", "docker")
     with pytest.raises(ValueError, match="COURSE_ISOLATION is 'docker'; it can be"):
         available_isolation()

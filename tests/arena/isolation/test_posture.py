@@ -1,4 +1,4 @@
-"""What the kernel says of a student's processes, looked at from outside, is what docs/grading.md promises."""
+"""The kernel's view of a student's processes, from outside, is what docs/grading.md promises."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ for child in children:
     child.kill()
 """
 
-# The trusted process looks at every process of the sandbox, by the number it has in there.
+# The trusted process inspects every process of the sandbox, by its process id inside.
 LOOK = f"""
 import sys
 from pathlib import Path

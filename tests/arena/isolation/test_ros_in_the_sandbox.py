@@ -1,4 +1,4 @@
-"""Two nodes, the trusted one in the arena and the student's in its sandbox, find each other and talk."""
+"""A trusted node in the arena and a student's node in its sandbox discover each other and communicate."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ import rclpy
 from std_msgs.msg import String
 rclpy.init()
 node = rclpy.create_node("observer")
-heard = []
-node.create_subscription(String, "answers", heard.append, 10)
+received = []
+node.create_subscription(String, "answers", received.append, 10)
 questions = node.create_publisher(String, "questions", 10)
 node.create_timer(0.05, lambda: questions.publish(String(data="hello")))
 deadline = time.monotonic() + 20
-while not heard and student.returncode is None and time.monotonic() < deadline:
+while not received and student.returncode is None and time.monotonic() < deadline:
     rclpy.spin_once(node, timeout_sec=0.1)
-assert heard and heard[0].data == "HELLO", student.stderr.text
+assert received and received[0].data == "HELLO", student.stderr.text
 student.interrupt()
 """
 

@@ -1,4 +1,4 @@
-"""What the trusted process in an arena relies on: the program runs, is heard, can be signalled, is gone at the end."""
+"""The trusted process in an arena can run the program, read its output, send signals to it and end it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from autograder.isolation.arena_process import Kind
 from autograder.isolation.student_sandbox import Program
 
 
-def test_a_program_runs_among_its_files_and_is_heard_line_by_line(kind: Kind) -> None:
+def test_a_program_runs_in_its_folder_and_its_output_is_read_by_line(kind: Kind) -> None:
     code = """
 import sys
 from helper import word
@@ -66,11 +66,11 @@ def test_it_gets_the_environment_it_was_given_and_the_arenas_network(kind: Kind)
         ("import os; os.abort()", -signal.SIGABRT),
     ],
 )
-def test_its_own_status_is_seen(kind: Kind, code: str, returncode: int) -> None:
+def test_its_exit_status_is_reported(kind: Kind, code: str, returncode: int) -> None:
     assert run_student(Student(code), kind).returncode == returncode
 
 
-def test_one_that_is_aborted_says_where_its_threads_stand(kind: Kind) -> None:
+def test_an_aborted_program_prints_the_stacks_of_its_threads(kind: Kind) -> None:
     code = """
 import threading
 def wait():
@@ -119,7 +119,7 @@ def test_it_can_be_ended(kind: Kind, verb: str, number: int) -> None:
     assert run.returncode == -number
 
 
-def test_one_that_ignores_every_signal_can_be_ended(kind: Kind) -> None:
+def test_a_program_that_ignores_every_signal_can_be_ended(kind: Kind) -> None:
     code = """
 import signal
 for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
@@ -137,7 +137,7 @@ student.kill(); student.interrupt(); student.write_line("too late")
     assert run_student(Student(code, meanwhile), kind).returncode == -signal.SIGKILL
 
 
-def test_it_can_be_typed_to(kind: Kind) -> None:
+def test_a_program_reads_lines_from_stdin(kind: Kind) -> None:
     code = "import sys\nfor line in sys.stdin: print('read', line.strip())\nprint('end')"
     meanwhile = "student.write_line('q'); wait_for_line('read q'); student.close_stdin()"
     run = run_student(Student(code, meanwhile), kind)
@@ -152,13 +152,13 @@ def test_a_flood_of_output_is_cut_and_noted(kind: Kind) -> None:
     assert run.stdout.splitlines()[-1].startswith("[cut after 8 KiB of output;")
 
 
-def test_one_line_without_end_is_kept_in_pieces(kind: Kind) -> None:
+def test_an_endless_line_is_kept_in_pieces(kind: Kind) -> None:
     run = run_student(Student("print('x' * 10_000, end='')"), kind)
     assert [len(text) for _, _, text in run.lines] == [4096, 4096, 1808]
 
 
 def test_nothing_it_started_outlives_it(namespaces: Kind) -> None:
-    """The daemon closes what it inherited and leaves its session; the trusted process finds nothing below itself."""
+    """The daemon closes inherited files and leaves its session; at the end the trusted process has no children."""
     code = """
 import os, signal
 if os.fork() == 0:

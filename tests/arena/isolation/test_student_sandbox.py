@@ -1,4 +1,4 @@
-"""What a hostile program cannot do, tried from inside."""
+"""Tests from inside the sandbox what a hostile program cannot do."""
 
 from __future__ import annotations
 
@@ -43,10 +43,10 @@ print(json.dumps([len(pids), os.getpid(), os.getppid(), os.listdir("/proc/1")]))
 """
     count, pid, parent, known = run_student(Student(code), namespaces).json()
     assert (count, pid, parent) == (2, 2, 1)
-    assert known == []  # neither its command line, which has paths of the host, nor its memory
+    assert known == []  # neither its command line, which contains paths of the host, nor its memory
 
 
-def test_memory_that_no_size_shows_cannot_be_had(namespaces: Kind) -> None:
+def test_memory_outside_of_the_measured_size_cannot_be_allocated(namespaces: Kind) -> None:
     code = """
 import errno, json, mmap, os
 refused = []
@@ -88,7 +88,7 @@ with socket.create_server(("127.0.0.1", 0)) as server:
     assert run.stdout == "['lo']\nhello\nNetwork is unreachable\n"
 
 
-def test_system_calls_that_it_has_no_business_with_are_refused(namespaces: Kind) -> None:
+def test_system_calls_that_it_does_not_need_are_refused(namespaces: Kind) -> None:
     code = """
 import ctypes, errno, json, os, socket
 libc = ctypes.CDLL(None, use_errno=True)
@@ -183,7 +183,7 @@ print(json.dumps([fill("/tmp"), fill("/dev/shm")]))
     assert in_shared_memory <= 4
 
 
-def test_a_fork_bomb_is_bounded_and_the_arena_goes_on(namespaces: Kind) -> None:
+def test_a_fork_bomb_is_bounded_and_the_arena_continues(namespaces: Kind) -> None:
     code = """
 import os, time
 children = 0
@@ -239,7 +239,7 @@ def test_an_endless_loop_ends_at_the_deadline(kind: Kind) -> None:
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="these tests are already run by an ordinary user")
 def test_an_ordinary_user_can_start_arenas_too(namespaces: Kind) -> None:
-    """Root's arenas start in another way than everybody else's."""
+    """Arenas of root start in another way than those of other users."""
     python = "/usr/bin/python3"
     become = ["/usr/bin/setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "--no-new-privs"]
     if not os.access(python, os.X_OK):

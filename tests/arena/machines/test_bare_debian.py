@@ -1,4 +1,4 @@
-"""The Dockerfile's steps on a machine with nothing but Debian's base packages: the launcher sets all up by itself.
+"""The Dockerfile's steps on a machine with only Debian's base packages: the launcher installs everything else.
 
 Takes a minute and a half on two cores when all downloads are there already, and some minutes the first time. Those of
 debootstrap, apt and uv are kept (build/bare_machine, uv's own cache).
@@ -19,10 +19,10 @@ from ros_runtime.project import PROJECT
 
 MIRROR = "http://deb.debian.org/debian"
 KEPT = PROJECT / "build/bare_machine"
-# Of this machine's environment, what says how to reach the network.
+# The variables of this machine's environment that configure the network.
 NETWORK = {"PIP_INDEX_URL", "UV_INDEX_URL", "UV_DEFAULT_INDEX"}
 NETWORK |= {name for name in os.environ if name.lower().endswith("_proxy")}
-# Those of a network that signs for itself.
+# The certificates of a network with its own certificate authority.
 CERTIFICATES = os.environ.get("SSL_CERT_FILE") or os.environ.get("PIP_CERT")
 COPIED = "/opt/course"
 CORRECT = min(path.name for path in (PROJECT / "solutions/patterns/known/correct").glob("*.py"))
@@ -43,7 +43,7 @@ def instructions() -> list[tuple[str, str]]:
 
 
 class Machine:
-    """A Debian in a folder, entered as a container is."""
+    """A Debian in a folder, entered like a container."""
 
     def __init__(self, root: Path) -> None:
         self.root = root
@@ -83,13 +83,13 @@ class Machine:
         )
 
     def become(self, user: str) -> None:
-        """Be a user from now on, as after USER."""
+        """Run further commands as this user, as after USER."""
         ids = self.run(f"id -u {user} && id -g {user}").stdout.split()
         self.user = ["setpriv", f"--reuid={ids[0]}", f"--regid={ids[1]}", "--clear-groups"]
         self.home = f"/home/{user}"
 
     def copy_clone(self, place: str) -> None:
-        """What COPY would copy: the files of the clone that git does not ignore."""
+        """Copy the files that COPY would copy: those of the clone that git does not ignore."""
         listed = ["git", "-C", str(PROJECT), "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
         names = subprocess.run(listed, capture_output=True, text=True, check=True).stdout.split("\0")
         for name in filter(None, names):
@@ -100,7 +100,7 @@ class Machine:
 
 
 def do(*command: str | Path) -> None:
-    """Run a program of this machine, which must succeed."""
+    """Run a program of this machine, not of the Debian in the folder; it must succeed."""
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=900)
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr
 

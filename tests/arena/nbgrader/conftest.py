@@ -14,7 +14,7 @@ from autograder.classroom.nbgrader_bridge.gradebook import CourseGradebook
 
 @pytest.fixture(scope="session")
 def empty_database(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A gradebook without anything in it; making one takes nbgrader seconds."""
+    """An empty gradebook, made once because nbgrader takes seconds to make one."""
     folder = tmp_path_factory.mktemp("empty")
     open_course(folder).gradebook.close()
     return folder / "gradebook.db"
@@ -22,7 +22,7 @@ def empty_database(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def course(tmp_path: Path) -> Path:
-    """The folder of a course that has no grades yet."""
+    """The folder of a course without grades."""
     return tmp_path / "graded"
 
 

@@ -1,4 +1,4 @@
-"""Grades without a grading, for the tests of what nbgrader makes of them."""
+"""Invented grades, for the tests of nbgrader's gradebook and pages."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SOLUTIONS = ROOT / "solutions"
 def grade_of(
     student: str, exercise: str = "battery_service", *, hidden: bool = True, **verdicts: dict
 ) -> Grade:
-    """A grade in which every check passed, except as the keyword arguments say: check id → fields of its verdict."""
+    """A grade in which every check passed; keyword arguments change verdicts: check id → fields of its verdict."""
     checks = [
         dataclasses.replace(
             CheckVerdict(

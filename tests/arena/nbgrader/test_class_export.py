@@ -1,4 +1,4 @@
-"""`nbgrader export` writes the rows of `course export`, and no zero for what has no score."""
+"""`nbgrader export` writes the same rows as `course export`, and no zero for a missing score."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An essay in nbgrader's gradebook: it waits for a person, and a person's points are kept through everything."""
+"""An essay in nbgrader's gradebook: it waits for a person, and a person's points are never lost."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def database(course):
 
 
 def mark(course, student, points, comment="well argued"):
-    """Do what formgrader does when a person gives points."""
+    """Enter points as formgrader does."""
     with database(course) as db:
         for criterion, score in points.items():
             grade = db.find_grade(criterion, NAME, NAME, student)

@@ -23,7 +23,7 @@ PATIENCE = 90.0  # s for Jupyter to start on a busy machine
 
 @pytest.fixture
 def formgrader(gradebook, course) -> Iterator[Callable[[str], str]]:
-    """A Jupyter server in a course folder with one grade; gives the text of its formgrader's pages."""
+    """A Jupyter server in a course folder with one grade; returns the text of formgrader's pages."""
     gradebook.enter(
         Entry(grade_of("anna", ends_cleanly=FAILED), {"battery_service.py": "print('a program')\n"})
     )

@@ -32,7 +32,7 @@ HIDDEN = [check for check in EXERCISE.checks if check.hidden]
 
 
 def submission(course, student):
-    """The score, the highest possible one, each cell's points and what still needs a person, from the database."""
+    """Score, maximum, each cell's points, and whether a person must mark it, from the database."""
     with Gradebook(f"sqlite:///{course / 'gradebook.db'}") as db:
         notebook = db.find_submission_notebook("battery_service", "battery_service", student)
         cells = {grade.name: grade.auto_score for grade in notebook.grades}
@@ -67,7 +67,7 @@ def test_grading_again_replaces_the_score(gradebook, course):
     assert score == highest
 
 
-def test_what_is_entered_already_is_left_alone_and_anything_new_is_not(gradebook, course):
+def test_unchanged_grades_are_not_entered_again_but_new_ones_are(gradebook, course):
     entries = [
         Entry(grade_of("anna"), SOURCES),
         Entry(grade_of("anna"), SOURCES),
@@ -91,7 +91,7 @@ def test_a_gradebook_that_was_lost_is_made_again(gradebook, course):
     assert score == highest
 
 
-def test_what_a_person_has_decided_stays(gradebook, course):
+def test_manual_decisions_are_kept(gradebook, course):
     gradebook.enter(Entry(grade_of("anna", ends_cleanly=FAILED), SOURCES))
     with Gradebook(f"sqlite:///{course / 'gradebook.db'}") as db:
         db.find_grade("ends_cleanly", "battery_service", "battery_service", "anna").manual_score = 1
@@ -120,13 +120,13 @@ def test_points_outside_of_what_a_cell_is_worth_are_refused(gradebook, course, c
     assert all(score is None for score in submission(course, "anna")[2].values())
 
 
-def test_what_was_not_graded_leaves_no_score_and_nbgrader_cannot_make_one_up(gradebook, course):
+def test_an_ungraded_submission_has_no_score_and_nbgrader_cannot_add_one(gradebook, course):
     broken = {"status": "error", "points": 0, "help": "Not graded: the arena could not start"}
     assert gradebook.enter(Entry(grade_of("anna", server_appears=broken), SOURCES)) is None
     gradebook.enter(Entry(grade_of("bert"), SOURCES))
     with pytest.raises(MissingEntry):
         submission(course, "anna")
-    # Someone presses "Autograde" in formgrader for a submission that lies there all the same.
+    # An instructor clicks "Autograde" in formgrader although the submission was graded already.
     (course / "submitted/bert").rename(course / "submitted/anna")
     with pytest.raises(NbgraderError, match="anna's battery_service was not graded"):
         call(open_course(course).autograde, "battery_service", "anna")
@@ -165,7 +165,7 @@ def test_feedback_says_what_was_expected_what_was_seen_and_what_to_do(gradebook)
     assert "program" in text
 
 
-def test_of_hidden_checks_students_learn_only_whether_they_passed(gradebook, course):
+def test_students_see_only_whether_hidden_checks_passed(gradebook, course):
     secret = FAILED | {"expected": "SECRET-1", "observed": "SECRET-2", "help": "SECRET-3", "log": "SECRET-4"}
     page = gradebook.enter(Entry(grade_of("anna", **{check.id: secret for check in HIDDEN}), SOURCES))
     shown = page.read_text() + (course / "autograded/anna/battery_service/battery_service.ipynb").read_text()
@@ -174,11 +174,11 @@ def test_of_hidden_checks_students_learn_only_whether_they_passed(gradebook, cou
         assert check.id not in shown
         assert check.title not in shown
     assert "hidden_1" in shown
-    # The instructor's record has it all.
+    # The instructor's record has everything.
     assert "SECRET-4" in (course / "records/anna.json").read_text()
 
 
-def test_what_a_node_printed_cannot_become_part_of_the_page(gradebook):
+def test_output_of_a_node_is_escaped_on_the_page(gradebook):
     attack = "<script>alert('owned')</script>"
     grade = grade_of("anna", follows_the_battery=FAILED | {"log": attack, "observed": attack})
     text = gradebook.enter(Entry(grade, {"battery_service.py": f"# {attack}\n"})).read_text()

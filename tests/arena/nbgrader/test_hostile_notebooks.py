@@ -1,4 +1,4 @@
-"""Whatever a student's notebook holds, it costs nobody else a grade and runs nowhere in the grader."""
+"""Whatever a student's notebook contains, it costs no other student a grade, and the grader never executes it."""
 
 from __future__ import annotations
 
@@ -190,7 +190,7 @@ def test_of_two_solution_cells_the_one_that_was_graded_is_shown(gradebook, tmp_p
     ],
     ids=["no JSON", "empty", "cells of numbers", "no solution cell", "half a character"],
 )
-def test_what_cannot_be_read_is_told_to_the_student(gradebook, tmp_path, content):
+def test_an_unreadable_notebook_is_reported_to_the_student(gradebook, tmp_path, content):
     handed_in(tmp_path / "submitted", "anna", content)
     (work,) = collect(tmp_path / "submitted").works
     with pytest.raises(UnusableSubmission) as problem:

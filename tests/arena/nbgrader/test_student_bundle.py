@@ -1,4 +1,4 @@
-"""Students get everything they need to work and nothing that would do their work for them."""
+"""The students' archive has everything that they need, and no solutions."""
 
 from __future__ import annotations
 
@@ -162,7 +162,7 @@ def test_what_cells_have_written_beside_the_chapters_stays_here(unpacked):
 
 @pytest.fixture
 def repository(unpacked, tmp_path) -> Path:
-    """The archive in a student's repository, where this environment stands for the one that the launcher would make."""
+    """The archive in a student's repository, with this environment instead of one that the launcher would make."""
     folder = shutil.copytree(unpacked, tmp_path / "repository")
     launcher = f"exec {sys.executable} -c 'from course_cli.app import main; main()' \"$@\"\n"
     (folder / "course").write_text(f"#!/bin/sh\nexport PYTHONPATH={folder / TOOLKIT}\n{launcher}")
@@ -183,7 +183,7 @@ def lines_of_ci(repository: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("right", [True, False], ids=["right", "wrong"])
-def test_the_lines_of_ci_tell_a_right_notebook_from_a_wrong_one(repository, right):
+def test_the_ci_commands_distinguish_a_correct_notebook_from_a_wrong_one(repository, right):
     notebook = repository / "exercises/patterns/patterns.ipynb"
     if right:
         program = (ROOT / "solutions/patterns/known/correct/lines_of_text.py").read_text()
@@ -218,7 +218,7 @@ def test_it_is_small_and_the_same_every_time(archive, tmp_path):
 
 
 @pytest.mark.parametrize("secret", ["### BEGIN SOLUTION", *hidden_check_ids()[:2]])
-def test_a_file_that_gives_something_away_stops_the_release(tmp_path, secret):
+def test_a_file_with_a_solution_or_hidden_check_stops_the_release(tmp_path, secret):
     leaking = tmp_path / "notes.md"
     leaking.write_text(f"by the way: {secret}\n")
     with pytest.raises(Leak, match=r"chapters/notes\.md"):

@@ -1,4 +1,4 @@
-"""What a student's notebook shows of a verdict."""
+"""How a student's notebook shows a verdict."""
 
 from __future__ import annotations
 

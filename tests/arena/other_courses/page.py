@@ -1,4 +1,4 @@
-"""Carries out a page of the documentation as a reader does: runs its commands, writes its files, fills its cells."""
+"""Follows a page of the documentation like a reader: runs its commands, writes its files, fills its cells."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def steps(page: Path) -> Iterator[Step]:
 
 
 def carry_out(step: Step, folder: Path, notebook: Path) -> str:
-    """Do what a block says in a folder; returns what its commands printed. One that fails is an AssertionError."""
+    """Execute a block in a folder; return the output of its commands. A failing command raises an AssertionError."""
     if step.where == "file":
         (folder / step.place).write_text(step.text, encoding="utf-8")
     elif step.where == "cell":

@@ -1,4 +1,4 @@
-"""Exercises of somebody else's repository, with this engine: checked, graded, audited, released."""
+"""Exercises of another repository are checked, graded, audited and released with this engine."""
 
 from __future__ import annotations
 
@@ -172,7 +172,7 @@ def test_without_isolation_a_check_says_so_and_is_made(repository, monkeypatch):
     assert "All visible checks are run" in said
 
 
-def test_its_archive_has_the_visible_checks_alone(repository):
+def test_its_archive_has_only_the_visible_checks(repository):
     run("release", "--out", "students.zip", "--course", repository / "tasks", cwd=repository)
     with zipfile.ZipFile(repository / "students.zip") as archive:
         names = {name.split("/", 1)[1] for name in archive.namelist()}
@@ -197,7 +197,7 @@ def test_its_archive_has_the_visible_checks_alone(repository):
         ("checks.py", CHECKS.replace("counts_to_three", "counts"), "cannot import name"),
     ],
 )
-def test_what_its_author_has_to_mend_is_said(repository, file, text, said):
+def test_faults_of_the_authors_files_are_reported(repository, file, text, said):
     (repository / "tasks/counting" / file).write_text(text)
     printed = run("audit", "--course", repository / "tasks", cwd=repository, status=2)
     assert said in " ".join(printed.split())

@@ -1,4 +1,4 @@
-"""A class server: an exercise goes out by nbgrader's exchange, comes back, and is graded, as the page says."""
+"""A class server as in the documentation: an exercise is released and collected by nbgrader's exchange, and graded."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ CORRECT = PROJECT / "solutions/patterns/known/correct"
 
 @pytest.fixture
 def clone(tmp_path: Path) -> Path:
-    """What the page's commands use of the instructor's clone, and a folder for a student."""
+    """The files of the instructor's clone that the page's commands use, and a folder for a student."""
     (tmp_path / "course").symlink_to(COURSE)
     (tmp_path / ".venv").symlink_to(PROJECT / ".venv")
     (tmp_path / "exercises").symlink_to(PROJECT / "exercises")

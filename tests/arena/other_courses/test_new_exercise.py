@@ -40,7 +40,7 @@ def test_a_name_that_is_none_is_refused(tmp_path, name):
     assert not (tmp_path / "tasks").exists()
 
 
-def test_an_exercise_that_is_there_is_left_as_it_is(tmp_path):
+def test_an_existing_exercise_is_not_changed(tmp_path):
     mine = tmp_path / "tasks/counting/checks.py"
     mine.parent.mkdir(parents=True)
     mine.write_text("my own work")

@@ -9,7 +9,7 @@ from course_command import course
 COURSE = Path(__file__).with_name("ros_examples")
 
 
-def test_every_shape_and_every_fault_gets_what_is_known_of_it() -> None:
+def test_every_style_and_every_fault_gets_its_known_verdict() -> None:
     audited = course("audit", "fibonacci", "--course", COURSE)
 
     said = audited.stdout + audited.stderr

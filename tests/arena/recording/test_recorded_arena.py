@@ -1,4 +1,4 @@
-"""Recordings of real arenas: the robot's true motion is in them, and grades are the same with and without."""
+"""Recordings of real arenas contain the robot's true motion, and grades are the same with and without them."""
 
 from __future__ import annotations
 
@@ -81,7 +81,9 @@ def test_a_replay_shows_the_seconds_around_it(recorded: tuple[Grade, Path]) -> N
     assert len(shown) > 60
 
 
-def test_the_grade_is_the_same_without_and_nothing_is_sampled_then(recorded: tuple[Grade, Path]) -> None:
+def test_without_a_recording_the_grade_is_the_same_and_no_posture_is_sampled(
+    recorded: tuple[Grade, Path],
+) -> None:
     result, runs = graded(None)
     assert [(check.id, check.status, check.points) for check in result.checks] == [
         (check.id, check.status, check.points) for check in recorded[0].checks
@@ -115,8 +117,8 @@ def test_check_keeps_visible_scenarios_only_and_names_the_folder(tmp_path: Path)
     assert files
     assert {path.stem.split("-")[0] for path in files} <= visible
     assert f"{len(files)} recordings in recordings/battery_service" in ran.stdout
-    told = {moment.check for path in files for moment in Recording.read(path).moments if moment.check}
+    shown = {moment.check for path in files for moment in Recording.read(path).moments if moment.check}
     checks = json.loads((tmp_path / "verdicts.json").read_text())["checks"]
-    assert told == {check["id"] for check in checks}
+    assert shown == {check["id"] for check in checks}
     assert any(Recording.read(path).first_failed for path in files)
     assert all(Recording.read(path).about["shows_hidden_checks"] == "no" for path in files)

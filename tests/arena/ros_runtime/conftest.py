@@ -10,7 +10,7 @@ from ros_runtime.workarounds.scaled_clock.compile_library import compile_library
 
 @pytest.fixture(scope="session")
 def clock_library(tmp_path_factory):
-    """The preloaded library, compiled from the source as it is now."""
+    """The preloaded library, compiled from the present source."""
     library = tmp_path_factory.mktemp("clock") / "libscaled_clock.so"
     compile_library(library)
     return library
@@ -23,7 +23,7 @@ def clock(tmp_path, clock_library):
 
 @pytest.fixture
 def start():
-    """Start a Python process with pipes; it does not outlive the test."""
+    """Start a Python process with pipes; it is ended with the test."""
     processes = []
 
     def start(*arguments, environment):

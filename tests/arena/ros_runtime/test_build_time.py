@@ -1,4 +1,4 @@
-"""A build may use so much of a processor and no more, whoever of its processes uses it."""
+"""The processor time of a build is limited, whichever of its processes uses it."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ WORK_OF_A_CHILD = """
 
 
 @pytest.mark.parametrize("work", [OWN_WORK, WORK_OF_A_CHILD], ids=["its own", "a child's"])
-def test_work_without_end_is_ended_and_named(work: str) -> None:
+def test_an_endless_build_is_ended_and_reported(work: str) -> None:
     program = LIMITED.format(work=work.strip())
     ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
     assert ended.stdout == "building it takes more than 1 s\n", ended.stderr
 
 
-def test_another_failure_within_the_time_stays_what_it_is() -> None:
+def test_another_failure_within_the_limit_is_reported_unchanged() -> None:
     program = LIMITED.format(work='raise RuntimeError("no compiler")')
     ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
     assert "RuntimeError: no compiler" in ended.stderr

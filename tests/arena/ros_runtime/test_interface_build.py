@@ -1,4 +1,4 @@
-"""Somebody's definitions become a package that new processes, and a running one, import and use with rclpy."""
+"""A student's definitions become a package that new and running processes can import and use with rclpy."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ros_runtime.interface_build.student_package import build_package
 
 SRV = "geometry_msgs/PointStamped target\n---\nint32 NO_WAY=-31\nint32 error_code\nfloat64 distance\n"
 ACTION = "float64 distance\n---\nuint16 NONE=0\nuint16 error_code\n---\nfloat64 distance_remaining\n"
-ODD_NAME = 'Téléchargements & "what\'s in" them'  # as people name folders; CMake cannot take any of it
+ODD_NAME = 'Téléchargements & "what\'s in" them'  # a realistic folder name; CMake can handle none of these characters
 USE = """
 import rclpy
 from my_interfaces.action import Go
@@ -88,7 +88,7 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def report(source: Path, out: Path) -> dict:
-    """What the first build, as a process, printed."""
+    """The report that the first build printed, run as a process."""
     built = build(source, out)
     assert built.returncode == 0, built.stdout + built.stderr
     return json.loads(built.stdout)
@@ -171,7 +171,7 @@ def test_a_wrong_definition_is_reported_without_a_build(tmp_path: Path) -> None:
                 "file": "Go.srv",
                 "line": 1,
                 "text": "float speed",
-                "wrong": "float is no type of ROS 2",
+                "wrong": "float is not a type of ROS 2",
                 "expected": "float64",
             }
         ],
@@ -189,7 +189,7 @@ def test_a_package_needs_a_name_of_its_own(source: Path, tmp_path: Path, name: s
         build_package(source, tmp_path, name)
 
 
-def test_a_build_that_fails_all_the_same_is_reported_with_its_output(
+def test_a_failed_build_of_valid_definitions_is_reported_with_its_output(
     source: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail(*_: object) -> None:

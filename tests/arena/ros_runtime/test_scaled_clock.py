@@ -1,4 +1,4 @@
-"""Processes that follow a scaled clock, timed from outside by the wall's."""
+"""Processes that follow a scaled clock, timed from outside in real time."""
 
 import json
 import os
@@ -13,7 +13,7 @@ from waits import KERNEL_TIMERS, WAITS
 from ros_runtime.environment import ros_environment
 from ros_runtime.workarounds.scaled_clock.clock import ScaledClock, follow
 
-# Asks for both clocks of a process as fast as it can, the real time before and after.
+# Reads both clocks of the process repeatedly, and the real time before and after each reading.
 READ_CLOCKS = """
 import ctypes, json, sys, time
 real = ctypes.CDLL(None).scaled_clock_real_monotonic_ns
@@ -27,7 +27,7 @@ print(json.dumps(samples[:: max(1, len(samples) // 3000)]))
 
 
 def scaled_ns(clock, real_ns):
-    """What a process that follows the clock reads at an instant of the real CLOCK_MONOTONIC."""
+    """The time that a process on the scaled clock reads at a time of the real CLOCK_MONOTONIC."""
     return real_ns + int(max(0, real_ns - clock.switch_ns) * (clock.scale - 1))
 
 
@@ -36,7 +36,7 @@ def following(clock):
 
 
 def time_wait(process):
-    """Seconds from "begin" to the end of the wait: by the wall at most, and by the process itself."""
+    """The duration of the wait (s): an upper bound in real time, and as the process measured it."""
     begin = time.monotonic()
     inside = float(process.stdout.readline())
     return time.monotonic() - begin, inside
@@ -106,7 +106,7 @@ def test_timers_and_rates_of_a_node_follow_the_clock(clock, start, executor, swi
     assert outside < 2.0  # 0.8 s when the machine is idle, 4 s if it were not scaled
 
 
-def test_an_endless_wait_still_ends_with_the_news(clock, start):
+def test_a_select_without_a_timeout_ends_at_its_input(clock, start):
     code = "import select, sys; print('begin', flush=True); select.select([0], [], []); print(input())"
     process = start("-c", code, environment=following(clock))
     assert process.stdout.readline() == "begin\n"
@@ -175,7 +175,7 @@ def test_without_the_library_no_clock_can_be_followed(clock):
 
 
 def test_a_signal_to_a_condition_variable_is_not_lost_while_the_clock_may_change(clock, start):
-    """The waiter sleeps in pieces; the signal comes at all phases of them."""
+    """The waiter sleeps in pieces; the signals come at all times relative to them."""
     code = """
 import ctypes, threading, time
 from waits import libc, after
@@ -281,7 +281,7 @@ print(time.monotonic() - inside, (real_monotonic_ns() - began) * 1e-9, flush=Tru
     assert 0.35 < outside < 1.4
 
 
-def test_a_clock_changes_its_pace_once(clock):
+def test_a_clock_is_switched_once(clock):
     clock.run_at(5.0)
     with pytest.raises(RuntimeError, match=r"stays at scale 5\.0"):
         clock.run_at(1.0)

@@ -62,7 +62,7 @@ def sigtimedwait(seconds):
 
 
 def wait_condition(seconds, clock, wait):
-    """A C program's loop: wait again until the deadline, whatever wakes it."""
+    """Loop as a C program does: after each wake-up wait again, until the deadline."""
     condition, mutex, attributes = (ctypes.create_string_buffer(64) for _ in range(3))
     libc.pthread_condattr_init(attributes)
     libc.pthread_condattr_setclock(attributes, clock)
@@ -93,7 +93,7 @@ def wait_for_timerfd(flags, value):
     os.read(descriptor, 8)
 
 
-# These end when the kernel says so, however the clock's pace changes meanwhile.
+# The kernel ends these waits, so a later switch of the clock does not affect them.
 KERNEL_TIMERS = {
     "setitimer": lambda s: on_alarm(lambda: signal.setitimer(signal.ITIMER_REAL, s)),
     "alarm": lambda s: on_alarm(lambda: signal.alarm(int(s))),

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from bench.arena.processor_time import metered_group
-from ros_runtime.course_error import COULD_NOT, CourseError
+from ros_runtime.course_error import COMMAND_FAILED, CourseError
 from ros_runtime.project import PROJECT
 
 ARENAS = (  # the first scenario of a check
@@ -24,7 +24,7 @@ ARENAS = (  # the first scenario of a check
 class BenchFailed(CourseError):
     """A measured run failed."""
 
-    exit_status = COULD_NOT
+    exit_status = COMMAND_FAILED
 
 
 @dataclass(frozen=True)

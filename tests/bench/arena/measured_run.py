@@ -25,7 +25,7 @@ from ros_runtime.project import PROJECT
 
 
 def main() -> None:
-    """Carry out the task."""
+    """Execute the task."""
     task = json.loads(sys.argv[1])
     name = task["exercise"]
     reference = PROJECT / "solutions" / name / f"{name}.ipynb"

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from autograder.isolation.memory_group import remove_group
-from ros_runtime.course_error import COULD_NOT, CourseError
+from ros_runtime.course_error import COMMAND_FAILED, CourseError
 
 _PLACES = (  # with the file that says how much was used: cgroup v2, v1 and both at once
     (Path("/sys/fs/cgroup/cpuacct"), "cpuacct.usage"),
@@ -25,7 +25,7 @@ _PLACES = (  # with the file that says how much was used: cgroup v2, v1 and both
 class CannotBeMeasured(CourseError):
     """This machine or this user cannot count the processor time of a tree of processes."""
 
-    exit_status = COULD_NOT
+    exit_status = COMMAND_FAILED
 
 
 @contextmanager

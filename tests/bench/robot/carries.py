@@ -49,7 +49,7 @@ def run(case: tuple[float, float, float]) -> Run:
 
 
 def _carry_out(grasp: Grasp, offset: float) -> tuple[str, dict[str, float]]:
-    """Do it, and return what went wrong, or "", and the figures."""
+    """Execute the run; return the problem, or "", and the measured values."""
     robot = grasp.robot
     table = float(grasp.cup()[2])
     if not _walk(robot, 0.03, offset, 0.0):

@@ -64,7 +64,7 @@ def run(case: tuple[str, float, float, float]) -> Run:
 
 
 def _rise_at_a_rate(humanoid: Humanoid, height: float, push: Sequence[float]) -> None:
-    """Be pushed in the crouch, then rise as cmd_vel would ask for it."""
+    """Get a push in the crouch, then rise at a rate as with cmd_vel."""
     humanoid.reset(height=height)
     simulate(humanoid, 0.5)
     humanoid.push(push)

@@ -53,7 +53,7 @@ def run(case: tuple[float, float, float, float]) -> Run:
 
 
 def _carry_out(grasp: Grasp, to_x: float, to_y: float, height: float) -> tuple[str, dict[str, float]]:
-    """Do it, and return what went wrong, or "", and the figures."""
+    """Execute the run; return the problem, or "", and the measured values."""
     robot = grasp.robot
     grasp.get_ready()
     if not grasp.approach():

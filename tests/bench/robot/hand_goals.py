@@ -1,4 +1,4 @@
-"""Two hundred poses for the hands, at random, of which it is known whether an arm can reach them."""
+"""Two hundred random poses for the hands, for each of which it is known whether an arm can reach it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from robot_sim.model.side import SIDES, Side
 
 SEED = 20614
 COUNT = 200
-# The reachable ones leave room for the body, which gives way by some centimetres as an arm moves:
+# The reachable poses leave a margin, because the body moves by some centimetres as an arm moves:
 SPARE = 0.15  # rad, to the ends of the joints' ranges
 STRAIGHT = -0.6  # rad; the elbow is bent more than that
 AHEAD = 0.1  # m, of base_link
@@ -63,7 +63,7 @@ def _within_reach(
     with_waist: bool,
     oriented: bool,
 ) -> HandGoal:
-    """Return where a hand is in a posture at random that keeps the arm off the body."""
+    """Return the hand's pose in a random posture in which the arm does not touch the body."""
     chain = ArmChain(model, side, with_waist)
     while True:
         take_stance(model, data, dimensions_of(model), 0.0, 0.0, 0.0)
@@ -87,7 +87,7 @@ def _out_of_reach(
     with_waist: bool,
     oriented: bool,
 ) -> HandGoal:
-    """Return a place too far away; or one that is near enough, for a hand that would have to come from beyond it."""
+    """Return a position that is too far away, or a near one with an orientation that is impossible there."""
     take_stance(model, data, dimensions_of(model), 0.0, 0.0, 0.0)
     shoulder = data.body(f"{side.letter}_shoulder_pitch_link").xpos - data.body("pelvis").xpos
     centre = np.array([0.0, 0.0, shoulder[2]])  # the axis of the waist, as high as the shoulder

@@ -1,4 +1,4 @@
-"""Measure the walking limits: ask for far more velocity than the robot can walk, each way, and stop."""
+"""Measure the walking limits: command far more velocity than the robot can walk, in each direction, then stop."""
 
 from __future__ import annotations
 

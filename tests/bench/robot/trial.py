@@ -1,4 +1,4 @@
-"""What a trial is: many independent runs of the robot, summed up in one row."""
+"""The types of a trial: many independent runs of the robot, summarized in one row."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from robot_sim.state import Mode
 
 @dataclass(frozen=True)
 class Run:
-    """What came of one run.
+    """The outcome of one run.
 
     Attributes:
         case: what was tried, printable.

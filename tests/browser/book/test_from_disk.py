@@ -22,7 +22,7 @@ pytestmark = needs_chromium
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The book, with a film in the first code cell of chapter 1."""
+    """The folder of the book, with a film in the first code cell of chapter 1."""
     folder = tmp_path_factory.mktemp("book")
     run = nbformat.read(PROJECT / "chapters/01_robot_and_graph.ipynb", as_version=4)
     first = next(cell for cell in run.cells if cell.cell_type == "code")
@@ -34,7 +34,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def page(site: Path) -> Iterator[Page]:
-    """A page that may load files of the book and nothing else."""
+    """A browser page that can load only files of the book."""
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=OFFLINE)
         page = browser.new_page(viewport={"width": 1250, "height": 1000})

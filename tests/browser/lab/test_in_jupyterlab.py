@@ -1,4 +1,4 @@
-"""A student's first minutes: unpack the archive, `course lab`, click the first chapter, see the robot walk, predict."""
+"""A student's first minutes: unpack the archive, `course lab`, open the first chapter, walk the robot, predict."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ pytestmark = needs_chromium
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Where a student has unpacked the archive."""
+    """The folder in which a student has unpacked the archive."""
     folder = tmp_path_factory.mktemp("student")
     write_bundle(Path(__file__).resolve().parents[3], folder / "students.zip")
     with zipfile.ZipFile(folder / "students.zip") as bundle:
@@ -42,7 +42,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def address(folder: Path) -> Iterator[str]:
-    """Where `course lab` serves the students' archive, for somebody who has never used Jupyter."""
+    """The address at which `course lab` serves the students' archive, with no earlier settings of Jupyter."""
     command = [
         sys.executable,
         "-c",
@@ -155,6 +155,6 @@ def test_a_self_check_saves_the_program_that_it_checks(page: Page, folder: Path,
 
 
 def seen(page: Page) -> np.ndarray:
-    """The picture of the robot as it is now, (height, width, 3)."""
+    """The present picture of the robot, (height, width, 3)."""
     screenshot = page.locator(PICTURE).screenshot()
     return np.asarray(Image.open(io.BytesIO(screenshot)).convert("RGB")).astype(int)

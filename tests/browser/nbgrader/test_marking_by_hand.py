@@ -1,4 +1,4 @@
-"""An instructor marks an essay: formgrader in a browser, seven scores, a comment, and the student's page."""
+"""An instructor marks an essay in a browser: formgrader, seven scores, a comment, and the student's page."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ pytestmark = needs_chromium
 
 @pytest.fixture(scope="module")
 def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A course folder in which one essay waits."""
+    """A course folder in which one essay is to be marked."""
     folder = tmp_path_factory.mktemp("course") / "graded"
     assert CourseGradebook(folder, SOLUTIONS).enter(ENTRY) is None
     return folder
@@ -38,7 +38,7 @@ def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def address(course: Path) -> Iterator[str]:
-    """Where Jupyter serves that folder, started as `course grade` says."""
+    """The address at which Jupyter serves that folder, started as `course grade` says."""
     options = ["--no-browser", "--allow-root", "--ServerApp.port=0", "--IdentityProvider.token="]
     with subprocess.Popen(
         [sys.executable, "-m", "jupyter", "lab", *options],

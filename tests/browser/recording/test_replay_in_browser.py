@@ -1,4 +1,4 @@
-"""A lost point watched in the web view: the robot, and below it in words what happened and what the check found."""
+"""The replay of a lost point in the web view: the robot, and below it captions of the events and the failed check."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ pytest.importorskip("mujoco.studio", reason="this MuJoCo is older than 4.0 and h
 # px: drawing costs by the pixel without a graphics card
 VIEWPORT: ViewportSize = {"width": 640, "height": 420}
 TIMEOUT = 60.0  # s
-RED = np.array([0xFF, 0x7B, 0x72])  # of what a failed check found
+RED = np.array([0xFF, 0x7B, 0x72])  # of the caption of a failed check
 
 pytestmark = needs_chromium
 
 
 @pytest.fixture
 def url(tmp_path: Path) -> Iterator[str]:
-    """Where `course replay` shows a robot that falls."""
+    """The address at which `course replay` shows a robot that falls."""
     command = [Path(sys.executable).with_name("course"), "replay", recorded_fall(tmp_path, "flat")]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
         yield view_address(process, TIMEOUT)

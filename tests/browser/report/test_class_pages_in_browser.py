@@ -1,4 +1,4 @@
-"""The pages of a graded class opened from the disk: by keyboard, in the dark, on a phone, without a network."""
+"""The pages of a graded class, opened from disk: by keyboard, in dark mode, on a phone, without a network."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def grade(student: str, status: str, exercise: str) -> Grade:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The pages of a class of two, of which one failed a check in five exercises."""
+    """The pages of a class of two students, one of whom failed a check in each of five exercises."""
     folder = tmp_path_factory.mktemp("graded")
     drawing = bars_svg({"0 to 9": 3, "10": 1}, title="How fast", across="speed", up="walks")
     grades = [
@@ -51,7 +51,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def page(folder: Path) -> Iterator[Page]:
-    """The class page, which may load nothing and run nothing."""
+    """The class page, in a browser that loads no files and runs no scripts."""
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=OFFLINE)
         page = browser.new_page(viewport={"width": 1200, "height": 900}, color_scheme="dark")
@@ -78,7 +78,7 @@ def test_the_keyboard_leads_from_the_class_to_what_happened(page: Page) -> None:
     assert drawing.is_visible()
 
 
-def test_in_the_dark_text_is_light_and_on_a_phone_nothing_sticks_out(page: Page, folder: Path) -> None:
+def test_dark_mode_has_light_text_and_a_phone_needs_no_horizontal_scrolling(page: Page, folder: Path) -> None:
     brightness = (
         "style => style.match(/\\d+/g).slice(0, 3).reduce((sum, value) => sum + Number(value), 0) / 3"
     )

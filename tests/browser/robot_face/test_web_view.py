@@ -1,4 +1,4 @@
-"""The robot in a browser: reachable from this machine alone, and seen."""
+"""The robot's view in a browser: it is reachable only from this machine, and it shows the robot."""
 
 import io
 import os
@@ -26,14 +26,14 @@ TIMEOUT = 60.0  # s
 
 @pytest.fixture(scope="module")
 def url():
-    """The view of a robot in a process of its own: MuJoCo's viewer can be opened once in a process."""
+    """The address of a robot's view, in a process of its own, because a process can open MuJoCo's viewer only once."""
     with viewed_robot() as (_, url):
         yield url
 
 
 @contextmanager
 def viewed_robot(*options):
-    """A robot with a view; yields its process and the view's address, or "" if it has ended."""
+    """Start a robot with a view; yield its process and the view's address, or "" if the process has ended."""
     command = [sys.executable, "-m", "robot_sim", "--view", *options]
     domain = ReservedDomain()
     environment = {
@@ -65,7 +65,7 @@ def test_it_listens_on_this_machine_alone(url):
         socket.create_connection(("127.0.0.2", port_of(url)), timeout=5).close()
 
 
-def test_what_was_replaced_in_mujoco_is_put_back():
+def test_mujocos_own_functions_are_restored():
     program = (
         "from robot_sim.humanoid import Humanoid; from robot_sim.views.web_view import WebView;"
         "view = WebView(Humanoid());"
@@ -80,7 +80,7 @@ def test_what_was_replaced_in_mujoco_is_put_back():
     assert expected in map(str.strip, ran.stderr.splitlines()), ran.stdout + ran.stderr
 
 
-def test_the_viewer_prints_nothing_into_our_lines():
+def test_the_viewer_prints_no_lines():
     with viewed_robot() as (process, _):
         said = process.stdout.readline()
         process.send_signal(signal.SIGINT)
@@ -89,7 +89,7 @@ def test_the_viewer_prints_nothing_into_our_lines():
     assert left == ""
 
 
-def test_a_taken_port_is_said(url):
+def test_a_taken_port_is_reported(url):
     with viewed_robot("--port", str(port_of(url))) as (process, _):
         assert f"Port {port_of(url)} is already in use" in process.stderr.read()
         assert process.wait(30) == 1
@@ -114,7 +114,7 @@ def test_a_browser_shows_the_robot(url):
 
 
 def shows_the_robot(screenshot):
-    """The plate on its chest is blue and its body bright, and nothing else in the scene is."""
+    """Whether the picture has the blue of the robot's chest and its bright body, which nothing else has."""
     pixels = np.asarray(Image.open(io.BytesIO(screenshot)).convert("RGB")).astype(int)
     middle = pixels[50:450, 300:500].reshape(-1, 3)
     blue = middle[:, 2] > middle[:, 0] + 60

@@ -1,4 +1,4 @@
-"""A scenario's log whose lines go nowhere."""
+"""A scenario's log whose output is discarded."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from autograder.arena.arena_log import ArenaLog
 
 @pytest.fixture
 def log() -> Iterator[ArenaLog]:
-    """A log of which a test sees the events."""
+    """A log whose events a test can read."""
     fd = os.open(os.devnull, os.O_WRONLY)
     yield ArenaLog(fd)
     os.close(fd)

@@ -1,4 +1,4 @@
-"""What a transcript keeps of what students send, and how it says what it did not keep."""
+"""Limits of a transcript: what is recorded of a student's messages, and how dropped ones are reported."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from std_msgs.msg import String, UInt8MultiArray
 from autograder.arena import arena_log as arena_log_module
 from autograder.arena.arena_log import MAX_LENGTH, MOST_OF, MOST_UNMATCHED, ArenaLog
 from autograder.authoring.evidence import events as ev
-from ros_runtime.recorded_client.conversation import NOBODYS
+from ros_runtime.recorded_client.conversation import UNKNOWN_GOAL
 
 
 class Recording:
-    """A log, and the events it has written into its file."""
+    """A log, and the events that it has written to its file."""
 
     def __init__(self, path: Any) -> None:
         self._path = path
@@ -52,7 +52,7 @@ def recording(tmp_path: Any) -> Iterator[Recording]:
 
 def test_a_flood_of_feedback_for_nobodys_goals_pushes_out_no_other(recording: Recording) -> None:
     for _ in range(MOST_UNMATCHED + 600):
-        recording.feedback("unknown 0000", of=NOBODYS)
+        recording.feedback("unknown 0000", of=UNKNOWN_GOAL)
     recording.feedback("walk")
     assert recording.of(ev.FeedbackReceived)[-1].goal == "walk"
 
@@ -70,13 +70,13 @@ def test_what_is_dropped_is_recorded_with_its_number_and_time(
     assert dropped.seconds > MOST_OF[ev.FeedbackReceived.kind]
 
 
-def test_nothing_is_said_when_nothing_was_dropped(recording: Recording) -> None:
+def test_without_dropped_events_no_drop_is_recorded(recording: Recording) -> None:
     recording.feedback("walk")
     recording.log.finish()
     assert recording.of(ev.RecordDropped) == []
 
 
-def test_all_that_students_send_together_stays_below_a_budget(
+def test_all_recorded_events_together_stay_below_a_limit(
     recording: Recording, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(arena_log_module, "LARGEST_RECORD", 10_000)
@@ -90,7 +90,7 @@ def test_all_that_students_send_together_stays_below_a_budget(
     assert recording.of(ev.Mark)
 
 
-def test_a_long_text_is_cut_and_says_how_long_it_was(recording: Recording) -> None:
+def test_a_long_text_is_cut_and_ends_with_its_length(recording: Recording) -> None:
     recording.feedback("walk", String(data="x" * 1_234_567))
     (feedback,) = recording.of(ev.FeedbackReceived)
     assert feedback.feedback.data == "x" * MAX_LENGTH + "…[cut: 1,234,567 characters]"
@@ -104,13 +104,13 @@ def test_a_long_list_is_recorded_as_empty_and_by_its_length(recording: Recording
     assert recording.of(ev.TooLarge)[0].bytes == 60_000
 
 
-def test_an_event_that_is_large_for_all_that_is_not_written(recording: Recording) -> None:
+def test_an_event_that_is_still_too_large_is_not_written(recording: Recording) -> None:
     recording.feedback("walk", JointState(name=["x" * MAX_LENGTH] * 200))
     (large,) = recording.events()
     assert (large.kind, large.what) == ("too_large", ev.FeedbackReceived.kind)
 
 
-def test_half_a_character_does_not_break_the_report(recording: Recording) -> None:
+def test_a_lone_surrogate_does_not_break_the_report(recording: Recording) -> None:
     recording.log.append(ev.NodeOutput(stream="stdout", text="\ud83d naïve"))
     assert recording.of(ev.NodeOutput)[0].text == "? naïve"
 

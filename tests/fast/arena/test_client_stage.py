@@ -1,4 +1,4 @@
-"""A student's program that never ends, or is gone before anybody saw it, holds nothing up."""
+"""A student's program that never ends, or ends before it is discovered, delays nothing."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from autograder.arena.phases import Phases
 
 
 class FakeNode:
-    """A node in a graph of which every question fails."""
+    """A node for which every query of the graph fails."""
 
     def __getattr__(self, question: str) -> Any:
         def fail(*_: Any) -> None:
@@ -26,7 +26,7 @@ class FakeNode:
 
 
 class FakeStudent:
-    """A program that is started, and has ended or has not."""
+    """A program that was started; it runs or has ended."""
 
     def __init__(self, has_exited: bool) -> None:
         self._has_exited = has_exited
@@ -46,7 +46,7 @@ def stage_of(log: ArenaLog, *, has_exited: bool) -> ClientStage:
     return ClientStage(node, log, student, Phases(log, wanted=False), lambda: None)
 
 
-def test_a_module_that_never_ends_is_recorded_and_the_scenario_goes_on(
+def test_a_module_that_never_ends_is_recorded_and_the_scenario_continues(
     log: ArenaLog, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(client_stage_module, "MODULE_TIMEOUT", 0.01)
@@ -56,7 +56,7 @@ def test_a_module_that_never_ends_is_recorded_and_the_scenario_goes_on(
     assert (event.what, event.id) == ("end", "program")
 
 
-def test_a_graph_that_cannot_be_read_is_no_node_and_is_told(
+def test_an_unreadable_graph_has_no_node_and_is_recorded(
     log: ArenaLog, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(client_stage_module, "APPEARING_TIMEOUT", 0.01)

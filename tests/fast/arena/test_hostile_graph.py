@@ -1,4 +1,4 @@
-"""Whatever stands in the ROS graph: every question has an answer, and what is odd is recorded."""
+"""Whatever the ROS graph contains, every query returns a result, and unusual entries are recorded."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def test_a_graph_that_cannot_be_read_is_empty_and_recorded_once(log: ArenaLog) -
     graph.inspect()
     reasons = [event.reason for event in log.all(ev.GraphFlooded)]
     assert "UnicodeDecodeError" in reasons[0]
-    assert len(reasons) == 2  # the retry has failed, too
+    assert len(reasons) == 2  # the retry failed, too
     assert len(reasons[0]) < 300
 
 
@@ -55,7 +55,7 @@ def test_an_ordinary_graph_is_not_recorded(log: ArenaLog) -> None:
 
 
 @pytest.mark.parametrize("name", ["no/name", "", "2nd", "a" * 300])
-def test_a_name_that_is_none_is_told(log: ArenaLog, name: str) -> None:
+def test_an_invalid_name_is_recorded(log: ArenaLog, name: str) -> None:
     graph = graph_of(log, get_node_names_and_namespaces=[(name, "/robot")])
     graph.inspect()
     (event,) = log.all(ev.GraphFlooded)
@@ -76,7 +76,7 @@ def test_the_owner_of_a_service_is_found_without_a_list_of_nodes(log: ArenaLog) 
     assert graph.owners_of("get_status") == ["/robot/walk_server", "/root"]
 
 
-def test_an_owner_without_a_name_is_nobody(log: ArenaLog) -> None:
+def test_an_owner_without_a_name_is_left_out(log: ArenaLog) -> None:
     servers = [Endpoint("_NODE_NAME_UNKNOWN_", "_NODE_NAMESPACE_UNKNOWN_"), Endpoint("no/name")]
     graph = graph_of(log, get_subscriptions_info_by_topic=servers)
     assert graph.owners_of("get_status") == []
@@ -87,7 +87,7 @@ def test_thousands_of_servers_of_one_name_are_not_listed(log: ArenaLog) -> None:
     assert graph.owners_of("get_status") == []
 
 
-def test_of_thousands_of_services_some_are_listed_and_the_rest_counted(log: ArenaLog) -> None:
+def test_some_of_thousands_of_services_are_listed_and_the_rest_counted(log: ArenaLog) -> None:
     services = [(f"/robot/service_{number:04}", ["std_srvs/srv/Trigger"]) for number in range(3000)]
     graph = graph_of(log, get_service_names_and_types=services, count_services=1)
     *offered, more = graph.offered()
@@ -96,7 +96,7 @@ def test_of_thousands_of_services_some_are_listed_and_the_rest_counted(log: Aren
     assert more == "and up to 2,960 more"
 
 
-def test_what_robot_and_every_node_offer_and_what_nobody_offers_is_not_listed(log: ArenaLog) -> None:
+def test_services_of_the_robot_of_every_node_and_without_a_server_are_not_listed(log: ArenaLog) -> None:
     arm_ik = ("/robot/compute_arm_ik", ["humanoid_interfaces/srv/ComputeArmIK"])
     assert graph_of(log, get_service_names_and_types=[arm_ik], count_services=1).offered() == []
     parameters = ("/robot/a/get_parameters", ["rcl_interfaces/srv/GetParameters"])
@@ -105,7 +105,7 @@ def test_what_robot_and_every_node_offer_and_what_nobody_offers_is_not_listed(lo
     assert graph_of(log, get_service_names_and_types=[wanted], count_services=0).offered() == []
 
 
-def test_the_topics_of_a_students_node_are_told_from_the_robots(log: ArenaLog) -> None:
+def test_the_topics_of_a_students_node_are_distinguished_from_the_robots(log: ArenaLog) -> None:
     names = (
         "/robot/odom",
         "/robot/imu",
@@ -129,7 +129,7 @@ def test_the_topics_of_a_students_node_are_told_from_the_robots(log: ArenaLog) -
 
 
 class Server(NamedTuple):
-    """What the graph says of a server."""
+    """A server as the graph describes it."""
 
     topic_type: str
 
@@ -141,7 +141,7 @@ class Server(NamedTuple):
         ("nonsense", "/robot/get_status [std_srvs/srv/SetBool]"),
     ],
 )
-def test_a_service_is_told_with_the_type_of_its_server_not_of_our_client(
+def test_a_service_has_the_type_of_its_server_not_of_the_graders_client(
     log: ArenaLog, mangled: str, told: str
 ) -> None:
     types = ["std_srvs/srv/SetBool", "std_srvs/srv/Trigger"]

@@ -1,4 +1,4 @@
-"""What is recorded of a server's answers, whatever their size and whenever they come."""
+"""How a server's answers are recorded, whatever their size and time of arrival."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.srv import GetJointPositions
 from ros_runtime.record.event import to_line
 from ros_runtime.recorded_client.action_client import ActionClient
-from ros_runtime.recorded_client.conversation import Conversation
+from ros_runtime.recorded_client.conversation import UNKNOWN_GOAL, Conversation
 from ros_runtime.recorded_client.goal import Goal
 from ros_runtime.recorded_client.service_client import ServiceClient
 
-NOBODYS = bytes(15) + b"n"
+UNKNOWN_ID = bytes(15) + b"n"
 SOON = 0.01  # s
 
 
 class FakeEndpoint:
-    """A client or a service: requests are kept, and a test answers them by setting their futures."""
+    """A client or a service that stores requests; a test answers them by setting their futures."""
 
     def __init__(self) -> None:
         self.futures: list[Future] = []
-        self.take: Any = None  # of a subscription
+        self.take: Any = None  # the callback of a subscription
 
     def call_async(self, _: Any) -> Future:
         self.futures.append(Future())
@@ -49,7 +49,7 @@ class FakeEndpoint:
 
 
 class FakeNode:
-    """Makes endpoints of one kind for everything."""
+    """A node that makes fake endpoints only."""
 
     def __init__(self) -> None:
         self.endpoints: list[FakeEndpoint] = []
@@ -69,7 +69,7 @@ def service_client(log: ArenaLog) -> tuple[ServiceClient, FakeEndpoint]:
 
 
 class Walking:
-    """A client of walk_to that has sent one goal, and the ends of its services and topics."""
+    """A client of walk_to that has sent one goal, and the fake endpoints of the action."""
 
     def __init__(self, log: ArenaLog) -> None:
         node: Any = FakeNode()
@@ -120,7 +120,7 @@ def test_an_answer_that_is_too_large_is_recorded_by_its_size_and_the_scenario_go
     assert log.all(ev.Unanswered) == []
 
 
-def test_an_answer_to_a_call_that_was_given_up_is_nothing(log: ArenaLog) -> None:
+def test_an_answer_to_an_abandoned_call_is_ignored(log: ArenaLog) -> None:
     client, end = service_client(log)
     call = client.send()
     end.futures[0].cancel()
@@ -129,7 +129,7 @@ def test_an_answer_to_a_call_that_was_given_up_is_nothing(log: ArenaLog) -> None
     assert [(event.what, event.id) for event in log.all(ev.Unanswered)] == [("call", "get_status 1")]
 
 
-def test_calls_have_the_names_they_are_given_or_are_counted_and_no_two_the_same(log: ArenaLog) -> None:
+def test_calls_have_given_or_numbered_names_which_are_unique(log: ArenaLog) -> None:
     client, _ = service_client(log)
     assert [client.send(as_=name).name for name in ("", "mine", "")] == [
         "get_status 1",
@@ -149,7 +149,7 @@ def test_calls_have_the_names_they_are_given_or_are_counted_and_no_two_the_same(
         ({"names": ["elbow"] * 1000}, 5000),
     ],
 )
-def test_the_size_of_a_message_is_seen_without_unpacking_it(fields: dict[str, Any], size: int) -> None:
+def test_the_size_of_a_message_is_known_without_deserializing_it(fields: dict[str, Any], size: int) -> None:
     response = GetJointPositions.Response(message=fields.get("message", ""))
     response.joint_state.position = fields.get("positions", [])
     response.joint_state.name = fields.get("names", [])
@@ -159,16 +159,16 @@ def test_the_size_of_a_message_is_seen_without_unpacking_it(fields: dict[str, An
 # -- actions ----------------------------------------------------------------------------------------------------------
 
 
-def test_feedback_for_nobodys_goals_takes_no_room_from_that_of_real_ones(log: ArenaLog) -> None:
+def test_feedback_for_unknown_goals_does_not_displace_feedback_of_known_goals(log: ArenaLog) -> None:
     walking = Walking(log)
     for _ in range(MOST_UNMATCHED + 600):
-        walking.on_feedback(walking.feedback(goal_id=NOBODYS))
+        walking.on_feedback(walking.feedback(goal_id=UNKNOWN_GOAL))
     walking.on_feedback(walking.feedback())
     assert log.count(ev.FeedbackReceived, goal="walk") == len(walking.goal.feedback) == 1
     assert dropped(log) == [(ev.FeedbackReceived.kind, 600)]
 
 
-def test_feedback_that_is_too_large_is_named_by_its_goal_and_counts_as_come(log: ArenaLog) -> None:
+def test_too_large_feedback_is_recorded_with_its_goal_and_counts_as_received(log: ArenaLog) -> None:
     walking = Walking(log)
     walking.on_feedback(walking.feedback(frame="x" * 60_000))
     (large,) = log.all(ev.TooLarge)
@@ -178,18 +178,18 @@ def test_feedback_that_is_too_large_is_named_by_its_goal_and_counts_as_come(log:
 
 
 @pytest.mark.parametrize("size", [0, 4, 40])
-def test_bytes_that_are_no_feedback_are_counted_and_nothing_else(log: ArenaLog, size: int) -> None:
+def test_bytes_that_are_not_feedback_are_only_counted(log: ArenaLog, size: int) -> None:
     walking = Walking(log)
     walking.on_feedback(walking.feedback()[:size])
     assert dropped(log) == [("unreadable", 1)]
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_no_bytes_whatever_stop_the_client(log: ArenaLog, seed: int) -> None:
+def test_arbitrary_bytes_do_not_stop_the_client(log: ArenaLog, seed: int) -> None:
     walking = Walking(log)
     chance = random.Random(seed)
     for _ in range(400):
-        data = bytearray(chance.choice((walking.feedback(), walking.statuses(walking.goal.id, NOBODYS))))
+        data = bytearray(chance.choice((walking.feedback(), walking.statuses(walking.goal.id, UNKNOWN_ID))))
         for _ in range(chance.randrange(8)):
             data[chance.randrange(len(data))] = chance.randrange(256)
         cut = bytes(data[: chance.randrange(len(data) + 1)])
@@ -205,7 +205,7 @@ def test_a_status_is_recorded_when_it_changes(log: ArenaLog) -> None:
     assert [(event.goal, event.status) for event in log.all(ev.StatusSeen)] == [("walk", 2)]
 
 
-def test_of_endless_unknown_goals_not_every_status_is_remembered(log: ArenaLog) -> None:
+def test_the_number_of_stored_statuses_of_unknown_goals_is_limited(log: ArenaLog) -> None:
     walking = Walking(log)
     for start in range(0, MOST_UNMATCHED + 500, 500):
         walking.on_status(
@@ -229,7 +229,7 @@ def test_a_result_that_is_too_large_still_ends_the_wait_for_it(log: ArenaLog) ->
     assert log.all(ev.TooLarge)[0].what == "result"
 
 
-def test_a_goal_has_its_answer_its_feedback_and_its_end(log: ArenaLog) -> None:
+def test_a_goal_has_its_answer_its_feedback_and_its_result(log: ArenaLog) -> None:
     walking = Walking(log)
     assert walking.goal.accepted is None
     walking.send_goal.futures[0].set_result(WalkTo.Impl.SendGoalService.Response(accepted=True))
@@ -281,7 +281,7 @@ def ask(service: ScriptedService) -> Any:
         return answered.value
 
 
-def test_a_client_that_has_left_before_its_answer_does_no_harm(log: ArenaLog) -> None:
+def test_a_client_that_ends_before_its_answer_does_no_harm(log: ArenaLog) -> None:
     _, endpoint = scripted(log)
     endpoint.send_response(SetBool.Response(), None)
 

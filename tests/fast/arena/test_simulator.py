@@ -1,4 +1,4 @@
-"""What a scenario asks of the simulator stands in the transcript, whether it takes effect or not."""
+"""A scenario's commands to the simulator are in the transcript, whether they take effect or not."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ros_runtime.record.event import to_line
 
 
 class Obedient:
-    """Stands for the robots: says of the first command that it has taken effect, and goes on for a while."""
+    """Stands for a simulator: reports that the first command has taken effect, and runs on for a while."""
 
     def serve(self, options: Sequence[str], *more: str) -> None:
         given = dict(zip(more[::2], more[1::2], strict=True))

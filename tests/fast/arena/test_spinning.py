@@ -1,4 +1,4 @@
-"""The agent's executor goes on, whatever a message makes rclpy raise."""
+"""The agent's executor keeps spinning, whatever exception rclpy raises for a message."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def test_messages_that_cannot_be_read_are_counted_and_the_next_one_is_taken(log:
     assert [(event.what, event.count) for event in log.all(ev.RecordDropped)] == [("unreadable", 2)]
 
 
-def test_an_error_of_ours_makes_the_run_void(log: ArenaLog) -> None:
+def test_an_error_of_the_grader_invalidates_the_run(log: ArenaLog) -> None:
     executor = spin(log, AttributeError("no field"), None)
     assert executor.rounds == 1
     assert [event.reason for event in log.all(ev.ScenarioFailed)] == ["AttributeError: no field"]

@@ -1,4 +1,4 @@
-"""A scenario's end: what was sent before is still taken in, and a flood without end is told."""
+"""The end of a scenario: earlier messages are still received, and an endless flood is recorded."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from autograder.arena.offering import FLOOD_TIMEOUT, QUIET_TIME, Offering
 
 
 class Kept:
-    """Stands for a log and a graph: the log has received so many messages at each look."""
+    """Stands for a log and a graph; at each poll the log has received a given number of messages."""
 
     def __init__(self, received: Iterator[int]) -> None:
         self._received = received
@@ -44,7 +44,7 @@ def stage_of(kept: Any) -> Offering:
 
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Time passes only while somebody sleeps."""
+    """A clock that advances only during `sleep`."""
     now = [0.0]
 
     def sleep(duration: float) -> None:
@@ -61,7 +61,7 @@ def close(received: Iterator[int]) -> list[str]:
 
 
 @pytest.mark.usefixtures("clock")
-def test_after_a_sound_node_one_look_is_enough() -> None:
+def test_after_a_correct_node_one_check_is_enough() -> None:
     assert close(iter([400, 402])) == ["look", "look", "inspect", "finish"]
 
 
@@ -78,7 +78,7 @@ def test_a_flood_without_end_is_recorded() -> None:
 
 
 @pytest.mark.usefixtures("clock")
-def test_a_condition_that_nobody_tells_of_is_looked_at_until_the_time_is_over() -> None:
+def test_a_condition_without_a_notification_is_polled_until_the_timeout() -> None:
     stage = stage_of(Kept(iter([])))
     looks = iter([False, False, True])
     assert stage.poll_until(lambda: next(looks), 1.0)

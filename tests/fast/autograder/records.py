@@ -1,4 +1,4 @@
-"""Records of made-up runs, and the failure that a check reports of one."""
+"""Makes records of runs by hand, and returns the failure that a check reports for one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The essay on a six-joint arm: its rubric, its marked samples, the answers that instructors compare with."""
+"""The essay on a six-joint arm: its rubric, its marked samples, and the model answers for instructors."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def test_its_hard_stop_runs_through_wires_alone() -> None:
     assert "action" not in {link.pattern for link in FULL.links if "mergency" in link.type}
 
 
-def test_the_weak_answer_stops_through_an_action_and_looks_complete() -> None:
+def test_the_weak_sample_stops_by_an_action_and_has_all_facts() -> None:
     assert WEAK.problems == ()
     assert len(WEAK.links) >= 8
     assert [link for link in WEAK.links if link.missing()] == []
@@ -102,7 +102,7 @@ def test_the_marks_for_instructors_are_of_this_rubric_and_add_up() -> None:
     assert total[2] == f"**{sum(weak)}**"
 
 
-def test_the_release_gives_nothing_away() -> None:
+def test_the_release_contains_no_solution() -> None:
     text = "\n".join(RELEASE.values())
     for secret in ("safety_relay", "EtherCAT", "FollowJointTrajectory", "BEGIN SOLUTION", "ArmMode"):
         assert secret not in text

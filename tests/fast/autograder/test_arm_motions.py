@@ -1,4 +1,4 @@
-"""What is required of an arm: its plan, where it arrived, what was said of it."""
+"""The requirements on an arm: its trajectory, its final position, and the feedback and result about it."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def given_up(
 
 
 def held(said: str, afterwards: float = HELD) -> Any:
-    """A run in which the elbow was held on a long way from 3 s on, and let go at 5 s: it turned to `afterwards`."""
+    """A run in which the elbow was held from 3 s to 5 s during a long motion; then it turned to `afterwards`."""
     hold = ev.RobotCommanded(t=3.0, command={"do": "hold_joint", "joint": ELBOW})
     release = ev.RobotCommanded(t=5.0, command={"do": "release_joint", "joint": ELBOW})
 
@@ -115,7 +115,7 @@ def test_an_arm_that_follows_has_arrived() -> None:
     assert motion.passes_every_point(run.goal("move")) == "2 points, unhindered"
 
 
-def test_an_arm_that_is_not_there_has_not() -> None:
+def test_an_arm_away_from_its_goal_has_not_arrived() -> None:
     run = moved(lambda t: follows(t) - 0.2)
     assert "l_elbow was 0.20 rad away" in failure_of(ends.succeeds, run.goal("move")).observed
 
@@ -185,14 +185,14 @@ def test_a_blocked_arm_strays_and_one_that_goes_on_later_has_not_held() -> None:
 
 
 def silenced(code: int) -> Any:
-    """The goal of a slow motion, given up 1.3 s after joint_states stopped; the arm holds from then on."""
+    """A goal of a slow motion that was aborted 1.3 s after joint_states stopped; the arm holds from then on."""
     lost = ev.RobotCommanded(t=4.0, command={"do": "joint_sensors", "connected": False})
     run = given_up(lambda t: START - 0.15 * min(max(t - BEGIN, 0.0), 3.3), code, lost, after=3.3)
     run.goal("move").request.trajectory = trajectory((8, START - 1.2))
     return run.goal("move")
 
 
-def test_silence_has_a_code_of_its_own() -> None:
+def test_missing_joint_states_have_an_error_code_of_their_own() -> None:
     goal = silenced(MoveArm.Result.INVALID_JOINTS)
     assert ends.notices_silence(goal) == "on the way"
     assert motion.holds_when_given_up(goal) == "without joint_states"
@@ -233,5 +233,5 @@ def behind(t: float) -> float:
         ),
     ],
 )
-def test_why_a_goal_was_given_up_is_told_by_its_code_and_by_where_the_arm_was(run: Any, word: str) -> None:
+def test_an_aborted_goal_is_explained_by_its_code_and_the_arms_position(run: Any, word: str) -> None:
     assert word in failure_of(ends.succeeds, run.goal("move")).help

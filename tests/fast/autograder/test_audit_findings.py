@@ -1,4 +1,4 @@
-"""What the audit says about a grade that differs from what is known."""
+"""The findings of an audit about a grade that differs from the known one."""
 
 from io import StringIO
 from pathlib import Path
@@ -88,7 +88,7 @@ def test_header_is_read_from_a_file_that_python_cannot_parse(folder):
         ("odd", '"""Style: plain"""', "expected one of"),
     ],
 )
-def test_header_that_says_too_little_or_too_much_is_refused(folder, kind, source, complaint):
+def test_header_with_missing_or_unknown_lines_is_refused(folder, kind, source, complaint):
     where = folder(**{kind: source})
     with pytest.raises(HeaderError, match=complaint):
         read(where, kind)
@@ -102,7 +102,7 @@ def test_submissions_are_chosen_by_name_or_by_kind_and_name(folder):
     assert known_submissions("service", only="two") == []
 
 
-def test_correct_submission_with_full_marks_is_no_surprise(folder):
+def test_correct_submission_with_full_marks_is_as_expected(folder):
     known = read(folder(correct=CORRECT), "correct")
     assert run_of(known, appears="passed", answers="passed", ends="passed").surprises() == []
 
@@ -113,20 +113,20 @@ def test_correct_submission_that_fails_is_a_false_failure(folder):
     assert "answers failed" in run.surprises()[0]
 
 
-def test_fault_that_is_caught_with_its_consequence_is_no_surprise(folder):
+def test_fault_that_is_caught_together_with_a_dependent_check_is_as_expected(folder):
     known = read(folder(faulty=FAULTY), "faulty")
     assert run_of(known, appears="passed", answers="failed", ends="failed").surprises() == []
     assert run_of(known, appears="passed", answers="failed", ends="passed").surprises() == []
 
 
 @pytest.mark.parametrize("status", ["passed", "not_run"])
-def test_fault_that_is_not_caught_is_a_surprise(folder, status):
+def test_fault_that_is_not_caught_is_reported(folder, status):
     run = run_of(read(folder(faulty=FAULTY), "faulty"), appears="passed", answers=status, ends="passed")
     assert run.missed() == ["answers"]
     assert "did not catch it" in run.surprises()[0]
 
 
-def test_failure_of_an_unrelated_check_is_a_surprise(folder):
+def test_failure_of_an_unrelated_check_is_reported(folder):
     run = run_of(read(folder(faulty=FAULTY), "faulty"), appears="failed", answers="failed", ends="passed")
     assert run.missed() == []
     assert run.unexpected() == ["appears"]
@@ -167,7 +167,7 @@ def test_matrix_shows_every_submission_and_check_and_the_figures(folder, exercis
     assert "false failures: 0 in 1 runs of correct submissions" in figures(runs, exercise)
 
 
-def test_what_could_not_be_graded_is_graded_once_more_at_the_end(folder, exercise, monkeypatch):
+def test_an_ungraded_submission_is_graded_again_at_the_end(folder, exercise, monkeypatch):
     where = folder(correct=CORRECT, faulty=FAULTY)
     gradings = []
 
@@ -186,7 +186,7 @@ def test_what_could_not_be_graded_is_graded_once_more_at_the_end(folder, exercis
     assert [run.grade.status for run in runs] == ["graded", "graded"]
 
 
-def test_enough_to_prove_is_every_check_once_and_whatever_is_not_faulty(tmp_path, monkeypatch):
+def test_enough_to_prove_has_each_check_once_and_all_correct_and_hostile_submissions(tmp_path, monkeypatch):
     monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path))
 
     def write(kind, name, header):
@@ -212,7 +212,7 @@ def test_enough_to_prove_is_every_check_once_and_whatever_is_not_faulty(tmp_path
         ("hostile", HARMLESS, {"appears": (), "answers": ("appears",), "ends": ("answers",)}),
     ],
 )
-def test_enough_to_catch_is_what_a_faulty_one_names_and_what_a_hostile_one_may_fail(
+def test_enough_to_catch_has_the_checks_that_a_submission_names_or_may_fail(
     folder, exercise, kind, source, checks
 ):
     known = read(folder(**{kind: source}), kind)

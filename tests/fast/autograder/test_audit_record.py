@@ -1,4 +1,4 @@
-"""An audit that is interrupted goes on where it stopped, and never with a verdict on something else."""
+"""A resumed audit reuses recorded verdicts, but never for a changed submission or other inputs."""
 
 import dataclasses
 import json
@@ -36,7 +36,7 @@ def path(tmp_path):
 
 
 def audited(path, run):
-    """Write a record as an audit does, which asks it first and then grades."""
+    """Write a record as an audit does: it looks up each run before it grades."""
     record = AuditRecord(path, isolation=ISOLATED)
     assert record.earlier_run(run.known, EXERCISE, run.repetition, run.grade.seed) is None
     record.add(run, EXERCISE)
@@ -53,7 +53,7 @@ def of_yesterday(path):
     return record
 
 
-def test_a_run_of_what_has_not_changed_is_kept_as_whichever_repetition_has_its_inputs(of_yesterday):
+def test_a_run_of_an_unchanged_submission_is_reused_for_the_repetition_with_its_inputs(of_yesterday):
     assert of_yesterday().earlier_run(FIRST, EXERCISE, 1, 4) == run_of(FIRST, seed=4, repetition=1)
 
 
@@ -84,7 +84,7 @@ def test_a_submission_that_was_edited_while_it_was_graded_is_graded_anew(path, t
     assert resumed.earlier_run(known, EXERCISE, 0, 4) is None
 
 
-def test_a_kept_run_is_compared_with_what_its_header_says_now(of_yesterday, path):
+def test_a_reused_run_is_compared_with_the_present_header(of_yesterday, path):
     record = of_yesterday()
     wrong = dataclasses.replace(FIRST, caught_by=(EXERCISE.checks[0].id,))
     assert record.earlier_run(wrong, EXERCISE, 0, 4).surprises()
@@ -110,7 +110,7 @@ def test_the_file_is_whole_after_every_run_and_keeps_what_it_had(of_yesterday, p
 
 
 @pytest.mark.parametrize("text", ["", "[]", '{"battery_service": [{"grade": {}}]}', '{"a": 1}'])
-def test_a_file_that_is_no_record_is_refused_and_left_as_it_is(path, text):
+def test_a_file_that_is_not_a_record_is_refused_and_not_changed(path, text):
     path.write_text(text)
     with pytest.raises(
         UnusableAuditRecord, match=r"was not written by course audit --json.*leave out --resume"
@@ -121,7 +121,7 @@ def test_a_file_that_is_no_record_is_refused_and_left_as_it_is(path, text):
     assert path.read_text() == text
 
 
-def test_an_interrupted_audit_says_how_to_go_on_and_then_grades_only_what_is_left(path, monkeypatch):
+def test_an_interrupted_audit_prints_how_to_resume_and_then_grades_the_rest(path, monkeypatch):
     graded, printed = [], []
 
     def audit_one(known, exercise, repetition, seed, *_, **__):
@@ -149,7 +149,7 @@ def test_an_interrupted_audit_says_how_to_go_on_and_then_grades_only_what_is_lef
     assert f"0 in {len(CORRECT)} runs of correct" in ran.output
 
 
-def test_resuming_needs_the_file_to_go_on_with():
+def test_resuming_needs_the_earlier_file():
     ran = CliRunner().invoke(app("audit"), ["audit", "battery_service", "--resume"])
     assert ran.exit_code == 2
     assert "add --json FILE" in ran.output

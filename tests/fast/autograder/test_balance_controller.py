@@ -1,4 +1,4 @@
-"""What a balance controller is told that publishes too much, too little, or the wrong gains for what it accepted."""
+"""The failures of a balance controller that publishes too often, too rarely, or wrong gains for an accepted set."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def controller(
 
 
 @pytest.mark.parametrize("together", [True, False])
-def test_each_accepted_set_has_one_message(together: bool) -> None:
+def test_each_accepted_set_request_has_one_message(together: bool) -> None:
     sets = requested(PAIR, *([YES] if together else [YES, YES]), together=together)
     first = [] if together else [message(SET + 0.05, kp_pitch=320.0)]
     run = controller(*sets, *first, message(SET + 0.06, **PAIR))
@@ -103,14 +103,14 @@ def test_each_accepted_set_has_one_message(together: bool) -> None:
         ("publishes_them_in_time", [ev.Mark(t=ASKED, name="nobody publishes")], "give create_publisher"),
     ],
 )
-def test_what_is_published_for_a_set_is_compared_with_it(
+def test_the_published_gains_are_compared_with_the_set_request(
     obligation: str, published: list[Any], next_step: str
 ) -> None:
     run = controller(*requested(PAIR, YES, together=True), *published)
     assert next_step in failure_of(getattr(MODEL, obligation).judge, run).help
 
 
-def test_a_refused_set_is_silent_and_has_a_reason() -> None:
+def test_a_rejected_set_request_publishes_nothing_and_has_a_reason() -> None:
     refused = controller(*requested(PAIR, NO, together=True))
     assert MODEL.publishes_nothing_for_rejected_sets.judge(refused)
     assert MODEL.gives_a_reason.judge(refused)
@@ -131,7 +131,7 @@ def test_a_bad_gain_is_refused_wherever_it_stands_in_a_set() -> None:
     assert not MODEL.refuses_no_numbers.judge(behind)
 
 
-def test_gains_that_are_no_doubles_or_not_the_robots_are_named() -> None:
+def test_gains_that_are_integers_or_not_the_robots_are_named() -> None:
     integers = controller(values=(ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=276),))
     assert failure_of(MODEL.has_its_gains.judge, integers).observed == "an integer"
     others = controller(values=tuple(double(value - 5.0) for value in DEFAULTS.values()))

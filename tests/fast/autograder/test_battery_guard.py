@@ -1,4 +1,4 @@
-"""How a run of the battery guard is judged, on records made by hand: sound clients and their near misses."""
+"""The checks of the battery guard on records made by hand: correct clients and slightly faulty ones."""
 
 import math
 from itertools import count
@@ -164,7 +164,7 @@ def succeeded(t):
         ),
     ],
 )
-def test_a_sound_run_passes(check, record):
+def test_a_correct_run_passes(check, record):
     judge(check, record)
 
 
@@ -259,7 +259,7 @@ def test_a_sound_run_passes(check, record):
         ("a_refused_cancel_is_no_end", [*DROPPED, *cancel(3.1, ()), *ended(3.2, 4, "refused")], "refused"),
     ],
 )
-def test_a_near_miss_is_told_its_next_step(check, record, told):
+def test_each_near_miss_fails_with_its_next_step(check, record, told):
     with pytest.raises(Failure) as caught:
         judge(check, record)
     assert told in caught.value.help

@@ -1,4 +1,4 @@
-"""What is said to a student whose node sent more than is read, or whose build went on for ever."""
+"""The failures of a node that sends more than is read, and of a build that does not end."""
 
 from __future__ import annotations
 
@@ -61,17 +61,17 @@ def refused(bytes: int, reason: str) -> ev.RobotRefused:
     return ev.RobotRefused(t=3.0, topic="/robot/cmd_vel", count=1, bytes=bytes, limit=64, reason=reason)
 
 
-def test_one_message_too_large_for_the_robot_fails_whether_it_was_felt_or_not() -> None:
+def test_one_message_too_large_for_the_robot_fails_even_without_a_delay() -> None:
     failure = failure_of(bounded, run_with(refused(52, "malformed"), refused(2**20, "more than 64 bytes")))
     assert failure.expected == "every message on /robot/cmd_vel to have at most 64 bytes"
     assert failure.observed == "one of 1.0 MiB; the robot did not read it"
 
 
-def test_a_flood_of_small_messages_that_the_robot_does_not_feel_is_no_failure() -> None:
+def test_a_flood_of_small_messages_that_does_not_delay_the_robot_is_allowed() -> None:
     bounded(run_with(refused(52, "more than 200 messages a second")))
 
 
-def test_a_flooded_graph_is_told_in_its_own_words_cut_to_a_readable_length() -> None:
+def test_a_flooded_graph_is_quoted_in_readable_length() -> None:
     reason = "there were 30,000 nodes" + "!" * 5000
     failure = failure_of(bounded, run_with(ev.GraphFlooded(t=1.0, nodes=30_000, reason=reason)))
     assert failure.observed.startswith("there were 30,000 nodes")
@@ -130,7 +130,7 @@ def usage(cpu: float) -> ev.NodeUsage:
 PROBLEM = {"file": "Go.action", "line": 3, "text": "int a", "wrong": "int is no type", "expected": "int32"}
 
 
-def test_of_thousands_of_problems_the_first_is_told_and_the_rest_counted() -> None:
+def test_the_first_of_thousands_of_problems_is_quoted_and_the_rest_counted() -> None:
     run = built(built=False, problems=[PROBLEM] * 20, more=4293, log="")
     failure = failure_of(require_built, run)
     assert failure.observed == "line 3, “int a”: int is no type (and 4,312 more)"
@@ -146,7 +146,7 @@ def test_a_build_that_failed_after_much_work_is_the_students_failure_too() -> No
     assert "120 s of processor time" in failure_of(require_built, run).observed
 
 
-def test_a_build_that_took_too_much_memory_says_so() -> None:
+def test_a_build_with_too_much_memory_is_reported_as_such() -> None:
     killed = ev.NodeKilled(t=4.0, reason="it used 900 MiB of memory; 700 MiB are allowed")
     assert "900 MiB" in failure_of(require_built, built(killed, usage(5.0))).observed
 

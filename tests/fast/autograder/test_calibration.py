@@ -1,4 +1,4 @@
-"""How a calibration has to end, and what one that goes wrong is told."""
+"""The required outcome of a calibration, and the failures of a wrong one."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def calibration(
     imu_until: float = END,
 ) -> Transcript:
     """One calibration; get_status answers at `reply` (s; None: never), and the robot walks in between."""
-    told = [
+    prints = [
         ev.RobotCommanded(t=t, command={"do": "gyro_bias", "bias": list(bias)})
         for t, bias in ((2.0, BEFORE), (6.0, BIAS))
     ]
@@ -64,7 +64,7 @@ def calibration(
         asked("only", TRUTH.SERVICE, t=SENT),
         answered("only", t=ANSWERED, response=response),
     ]
-    return run_of(*told, *imu, *body, *status, *call, *others, until=END)
+    return run_of(*prints, *imu, *body, *status, *call, *others, until=END)
 
 
 def published(*vector: float, frame: str = "imu_link", t: float = ANSWERED) -> ev.Event:
@@ -112,7 +112,7 @@ def test_what_happens_meanwhile_decides_how_a_calibration_ends(
     "meanwhile",
     [{"reply": SENT + 1.9}, {"walks": (SENT - 0.5, END)}, {"imu_until": SENT + 2.0}],
 )
-def test_where_something_was_on_its_way_either_end_is_right(meanwhile: Any) -> None:
+def test_for_a_message_in_transit_either_outcome_is_right(meanwhile: Any) -> None:
     assert TRUTH.story_of(calibration(**meanwhile).call("only")) is None
 
 
@@ -128,7 +128,7 @@ def test_where_something_was_on_its_way_either_end_is_right(meanwhile: Any) -> N
         ("bias 0.010 -0.008 0.012, 150 samples", "Write more decimals"),
     ],
 )
-def test_a_wrong_bias_is_told_what_kind_of_mean_it_is(message: str, next_step: str) -> None:
+def test_a_wrong_bias_is_explained_by_the_kind_of_mean_it_is(message: str, next_step: str) -> None:
     assert next_step in failure_of(MODEL.tells_the_means.judge, calibration(message)).help
 
 
@@ -146,7 +146,7 @@ def test_the_means_may_be_written_in_many_ways(message: str) -> None:
     assert MODEL.tells_the_count.judge(run)
 
 
-def test_a_list_of_guesses_is_no_bias() -> None:
+def test_a_list_of_guesses_is_not_accepted_as_the_bias() -> None:
     guesses = "; ".join(mean(number / 20) for number in range(21))
     assert failure_of(MODEL.tells_the_means.judge, calibration(guesses)).observed == "63 numbers"
 
@@ -181,13 +181,13 @@ def test_a_calibration_that_fails_publishes_nothing() -> None:
         ((3.0, 6.0), "The heartbeat's timer must run as long as the node"),
     ],
 )
-def test_a_gap_is_explained_by_the_request_that_was_at_work(
+def test_a_gap_is_explained_by_the_request_that_was_being_processed(
     silence: tuple[float, float], next_step: str
 ) -> None:
     assert next_step in failure_of(MODEL.beats.judge, calibration(GOOD, *beats(silence))).help
 
 
-def test_a_number_of_thousands_of_digits_is_no_count() -> None:
+def test_a_number_of_thousands_of_digits_is_not_read_as_a_count() -> None:
     run = calibration("mean 0.010 -0.008 0.012 of " + "9" * 5000)
     assert "Write the number of averaged samples" in failure_of(MODEL.tells_the_count.judge, run).help
 

@@ -1,4 +1,4 @@
-"""The clauses of a statement are read from its notebook, and a hidden check names the one it judges."""
+"""The clauses of a statement are read from its notebook, and a hidden check names the clause that it tests."""
 
 import json
 
@@ -34,6 +34,6 @@ def test_a_copy_without_the_notebook_has_no_clauses(tmp_path):
     assert clauses_in(tmp_path / "none.ipynb") == {}
 
 
-def test_a_loaded_check_says_its_clause_in_the_words_of_the_statement():
+def test_a_loaded_check_quotes_its_clause_from_the_statement():
     checks = {check.id: check for check in load_exercise("battery_service", hidden=True).checks}
     assert checks["answers_every_request"].promise.startswith("clause 4, “Every request is answered at once")

@@ -1,4 +1,4 @@
-"""How fast the clock of an arena goes: fast where nothing has to move, slowly where the machine is busy."""
+"""The scale of an arena's clock: high if no robot has to move, low if the machine is busy."""
 
 import pytest
 
@@ -53,12 +53,12 @@ def test_no_point_is_lost_at_a_fast_scale(load, first, was_strained, second):
     assert ClockScale().retry_scale(first, was_strained) == second
 
 
-def test_a_scale_that_was_asked_for_is_kept(load):
+def test_a_requested_scale_is_kept(load):
     scale = ClockScale(3.0)
     assert scale.first_scale(LIGHT[0]) == scale.retry_scale(3.0, too_fast=False) == 3.0
 
 
-def test_where_no_process_can_follow_a_clock_all_run_at_the_walls(load, monkeypatch):
+def test_without_the_clocks_library_all_arenas_run_in_real_time(load, monkeypatch):
     monkeypatch.setattr(clock_scale, "library_path", lambda: None)
     assert {ClockScale().first_scale(scenario) for scenario in (WALK, *LIGHT)} == {1.0}
 

@@ -1,4 +1,4 @@
-"""Angles are judged by where they bring the hand, and a known mistake is called by its name."""
+"""Angles are judged by the hand's position that results, and known mistakes are named."""
 
 import math
 
@@ -81,12 +81,12 @@ def test_an_angle_that_is_none_has_no_side(shoulder):
         require_side(answer(shoulder, ELBOW, elbow_up=True))
 
 
-def test_behind_the_shoulder_either_side_will_do():
+def test_behind_the_shoulder_both_sides_are_accepted():
     for elbow_up in (False, True):
         require_side(answer(math.pi - SHOULDER, -ELBOW, target=(-0.4, 0.3), elbow_up=elbow_up))
 
 
-def test_two_millimetres_are_too_many():
+def test_an_error_of_two_millimetres_is_too_large():
     with pytest.raises(Failure, match="mm off"):
         require_hit(answer(SHOULDER + 0.004, ELBOW))
 
@@ -140,7 +140,7 @@ def sides(run_below, run_above):
     return failure.value.help
 
 
-def test_an_elbow_that_is_always_on_one_side_is_told_from_one_that_is_turned_round():
+def test_an_elbow_always_on_one_side_is_distinguished_from_swapped_sides():
     below, above = (SHOULDER, ELBOW), (DIRECTION + INSIDE, -ELBOW)
     assert sides(below, below).startswith(
         "With elbow_up false the elbow was also below: elbow_up has no effect."
@@ -199,7 +199,7 @@ def test_a_length_that_was_refused_is_not_used():
 
 
 @pytest.mark.parametrize("length", [0.0, -0.25, math.nan])
-def test_with_a_length_that_is_none_any_answer_will_do(length):
+def test_with_an_invalid_length_any_answer_is_accepted(length):
     asked = run(answer(1.0, 1.0), lengths=(length,))
     assert MODEL.answers_every_call.judge(asked) == {"with invalid lengths": 1}
     assert not MODEL.reaches_the_point.judge(asked)

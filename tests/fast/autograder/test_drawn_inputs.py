@@ -1,4 +1,4 @@
-"""The inputs that scenarios draw, over many seeds: they can be carried out, name everything once, and are in bounds.
+"""The inputs that scenarios draw, over many seeds: they can be executed, have unique names, and are in bounds.
 
 A seed is any number, and each batch has a new one: what fails once in a thousand draws fails a class. 100,000 seeds
 take half an hour: DRAWN_SEEDS=100000 .venv/bin/pytest tests/fast/autograder/test_drawn_inputs.py -n 4
@@ -22,7 +22,7 @@ from autograder.engine.exercise import exercise_names, load_exercise
 from ros_runtime.recorded_client.conversation import Conversation
 
 SEEDS = int(os.environ.get("DRAWN_SEEDS", "25"))
-APART = 0.08  # m between where a cup stands and where it shall stand, so that a place can be told
+APART = 0.08  # m between a cup's position and its target, so that the two can be distinguished
 NUMBER = re.compile(r"-?\d+(\.\d+)?")  # an argument of a program
 CHARGES, SECONDS = (0.0, 1.0), (0.0, 70.0)
 BOUNDS = {
@@ -35,7 +35,7 @@ BOUNDS = {
 
 
 class StandIn(int):
-    """Stands for a stage and all it gives: any attribute, call and number, and the names by the arena's own rule."""
+    """Stands for a stage: it accepts any attribute and call, and names requests by the arena's own rule."""
 
     names: Conversation
     kind = name = ""

@@ -1,4 +1,4 @@
-"""An essay is left to a person: no check, no points, no zero."""
+"""An essay is marked by a person: it has no checks, and before that no points, not even zero."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def printed(renderable: object) -> str:
     return console.export_text()
 
 
-def test_exercises_with_checks_and_essays_are_told_apart() -> None:
+def test_exercises_with_checks_and_essays_are_distinguished() -> None:
     assert NAME in essay_names()
     assert NAME not in exercise_names()
     assert sorted(exercise_names() + essay_names()) == all_names()
@@ -83,7 +83,7 @@ def test_work_is_read_and_waits_without_points(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["not a notebook", json.dumps(new_notebook())])
-def test_also_work_that_cannot_be_read_is_a_persons_to_judge(tmp_path: Path, text: str) -> None:
+def test_unreadable_work_also_waits_for_a_person(tmp_path: Path, text: str) -> None:
     hand_in(tmp_path / "submitted", text)
     graded = run_batch(tmp_path, [])
     assert graded.sources is None
@@ -97,7 +97,7 @@ def test_a_record_is_read_back_as_it_was_written() -> None:
     assert Grade.from_json(json.loads(json.dumps(grade.to_json()))) == grade
 
 
-def test_one_criterion_without_points_keeps_the_whole_waiting() -> None:
+def test_one_criterion_without_points_leaves_the_essay_ungraded() -> None:
     verdicts = [CheckVerdict("a", "A", "marked", 2, 2), CheckVerdict("b", "B", "to mark", 0, 3)]
     assert Grade(NAME, "anna", "by hand", verdicts).score is None
 
@@ -115,7 +115,7 @@ def test_the_table_of_a_class_says_what_waits_and_where_points_were_lost() -> No
     assert "to be marked by hand" in printed(progress_line(waiting))
 
 
-def test_a_student_who_checks_an_essay_reads_by_what_it_is_marked(tmp_path: Path) -> None:
+def test_checking_an_essay_prints_its_criteria(tmp_path: Path) -> None:
     path = hand_in(tmp_path, notebook(WORK))
     ran = CliRunner().invoke(app("check"), ["check", NAME, str(path)])
     assert ran.exit_code == 0, ran.output

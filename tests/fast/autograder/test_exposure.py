@@ -1,4 +1,4 @@
-"""Nothing is graded where a sandbox would show solutions, hidden checks or other students' work."""
+"""Grading is refused if a sandbox would contain solutions, hidden checks or other students' work."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ from ros_runtime.project import PROJECT
         str(PROJECT / "ros_runtime/submitted"),
     ],
 )
-def test_what_lies_in_a_shown_folder_is_refused(path: str) -> None:
+def test_files_inside_a_visible_folder_are_refused(path: str) -> None:
     with pytest.raises(HiddenChecksRefused, match=r"nothing is graded: .* lies in .*; move it"):
         require_hidden([Path("/srv/course"), Path(path)])
 
 
-def test_what_lies_beside_or_around_it_is_not(tmp_path: Path) -> None:
+def test_files_beside_or_around_it_are_allowed(tmp_path: Path) -> None:
     require_hidden([PROJECT, PROJECT / "solutions", tmp_path, Path("/usr2/src"), Path("/srv/usr/src")])
 
 

@@ -1,4 +1,4 @@
-"""A faulty submission is what differs from a correct one, and the whole program comes back from it."""
+"""A faulty submission is stored as a patch of a correct one, from which the whole program is restored."""
 
 import pytest
 from typer.testing import CliRunner
@@ -60,7 +60,7 @@ def test_a_patch_that_no_longer_applies_says_what_to_do(known):
         whole_program(known / "faulty/forgets.patch")
 
 
-def test_a_name_that_is_nobodys_is_refused(known):
+def test_an_unknown_name_is_refused(known):
     status, said = course("--show", "counting/faulty/none")
     assert status == 2
     assert "faulty/none; found none" in said

@@ -1,4 +1,4 @@
-"""The operators that make mistakes in correct submissions, the mutants' names, and which of them are graded."""
+"""The mutation operators, the mutants' names, and the selection of mutants to grade."""
 
 import ast
 from collections import Counter
@@ -161,7 +161,7 @@ def mutants(tmp_path, source, operator=None):
 
 
 @pytest.mark.parametrize(("operator", "source", "words"), EXAMPLES)
-def test_operator_makes_what_its_sentence_says(tmp_path, operator, source, words):
+def test_operator_makes_the_mistake_that_its_sentence_names(tmp_path, operator, source, words):
     assert [one for one in mutants(tmp_path, source, operator) if words in one.sentence]
 
 
@@ -186,7 +186,7 @@ def test_pattern_finds_what_its_letters_stand_for(pattern, source, replacement, 
     assert (None if bound is None else filled(replacement, bound)) == expected
 
 
-def test_mutants_compile_and_none_is_there_twice(tmp_path):
+def test_mutants_compile_and_are_unique(tmp_path):
     for source in (SERVICE, ACTION):
         programs = [mutant.source for mutant in mutants(tmp_path, source)]
         for program in programs:
@@ -194,7 +194,7 @@ def test_mutants_compile_and_none_is_there_twice(tmp_path):
         assert len({*programs, ast.unparse(ast.parse(source))}) == len(programs) + 1
 
 
-def test_names_outlast_edits_of_other_lines(tmp_path):
+def test_names_do_not_change_when_other_lines_are_edited(tmp_path):
     before = {mutant.name for mutant in mutants(tmp_path, SERVICE)}
     edited = SERVICE.replace("import math\n", "import math\nimport os\n").replace(
         "        return response\n",
@@ -204,7 +204,7 @@ def test_names_outlast_edits_of_other_lines(tmp_path):
     assert before <= {mutant.name for mutant in mutants(tmp_path, edited)}
 
 
-FEW = {"interfaces": 0, "patterns": 0}  # definitions are no programs; answers are words
+FEW = {"interfaces": 0, "patterns": 0}  # definitions are not programs; answers are words
 
 
 @pytest.mark.parametrize("name", exercise_names())
@@ -273,7 +273,7 @@ def judged(**statuses):
     return Judged(fault.mutant, AuditedRun(fault, 0, grade, 1.0))
 
 
-def test_figures_tell_visible_from_hidden_checks():
+def test_figures_count_visible_and_hidden_checks_separately():
     noticed = judged(hidden="not run", visible="failed")
     by_hidden = judged(visible="passed", hidden="failed")
     kept, broken = judged(hidden="passed", visible="passed"), judged(hidden="error")

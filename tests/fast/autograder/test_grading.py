@@ -1,4 +1,4 @@
-"""How verdicts follow from given transcripts: dependencies, infrastructure failures, overload."""
+"""The verdicts for given transcripts: dependencies of checks, infrastructure failures, overload."""
 
 import sys
 from dataclasses import replace
@@ -64,7 +64,7 @@ def two_checks():
 
 
 def arenas(monkeypatch, answer):
-    """Let `answer(scenario, scale)` stand for an arena; returns the list of what was run."""
+    """Replace arenas by `answer(scenario, scale)`; return the list of the runs."""
     ran = []
 
     def run_in_arena(run, stop=None, arenas=None):
@@ -85,7 +85,9 @@ def test_full_marks(monkeypatch, two_checks):
     assert (grade.status, grade.score, grade.max_score, grade.all_passed) == ("graded", 5, 5, True)
 
 
-def test_a_failure_says_what_when_and_what_next_and_what_stands_on_it_is_not_run(monkeypatch, two_checks):
+def test_a_failure_has_observation_time_and_next_step_and_dependent_checks_are_not_run(
+    monkeypatch, two_checks
+):
     arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
     grade = graded(two_checks)
     assert statuses(grade) == {"base": "failed", "above": "not run"}
@@ -112,7 +114,7 @@ def test_an_arena_that_fails_is_tried_again_and_then_not_graded(monkeypatch, two
     assert len(ran) > 1
 
 
-def test_a_check_that_breaks_costs_nothing(monkeypatch):
+def test_a_check_that_raises_costs_no_points(monkeypatch):
     @check(points=1, on=FIRST)
     def broken(run):
         """Broken"""
@@ -124,7 +126,7 @@ def test_a_check_that_breaks_costs_nothing(monkeypatch):
     assert "oops" in grade.checks[0].help
 
 
-def test_what_the_arena_left_out_is_looked_for_again_and_then_not_graded(monkeypatch, two_checks):
+def test_events_missing_by_the_arenas_fault_are_retried_and_then_not_graded(monkeypatch, two_checks):
     def answer(scenario, scale):
         whole = transcript(scenario, mark="here")
         return replace(whole, events=[event for event in whole.events if event.kind != "scenario_ended"])
@@ -137,7 +139,7 @@ def test_what_the_arena_left_out_is_looked_for_again_and_then_not_graded(monkeyp
 
 
 @pytest.mark.parametrize("slow_enough", [2.0, 1.0])
-def test_what_is_not_seen_is_looked_for_again_on_slower_clocks(monkeypatch, slow_enough):
+def test_a_missing_event_is_retried_on_slower_clocks(monkeypatch, slow_enough):
     @check(points=1, on=FIRST)
     def sees(run):
         """It is seen"""
@@ -195,7 +197,7 @@ def test_a_program_that_got_no_processor_is_run_again_more_slowly_where_time_cou
 
 
 @pytest.mark.parametrize(("starved", "status"), [(2.0, "failed"), (5.0, "not graded")])
-def test_a_node_that_never_came_is_judged_unless_half_its_time_was_lost(
+def test_a_node_that_never_appeared_is_judged_unless_it_lost_half_its_time(
     monkeypatch, two_checks, starved, status
 ):
     def answer(scenario, scale):
@@ -210,7 +212,7 @@ def test_a_node_that_never_came_is_judged_unless_half_its_time_was_lost(
 
 
 @pytest.mark.parametrize("fast_enough", [2.0, 1.0])
-def test_a_failure_on_a_strained_run_counts_only_if_it_is_seen_again_on_one_that_is_not(
+def test_a_failure_on_a_busy_machine_counts_only_if_it_recurs_on_an_idle_one(
     monkeypatch, two_checks, fast_enough
 ):
     def answer(scenario, scale):
@@ -227,7 +229,7 @@ def test_a_failure_on_a_strained_run_counts_only_if_it_is_seen_again_on_one_that
 @pytest.mark.parametrize(
     ("marks", "status"), [(["here"], "passed"), ([None, "here"], "passed"), ([None, None, "here"], "failed")]
 )
-def test_a_failure_counts_only_if_it_is_seen_twice(monkeypatch, marks, status):
+def test_a_failure_counts_only_if_it_occurs_twice(monkeypatch, marks, status):
     @check(points=1, on=FIRST)
     def ends(run):
         """It ends well"""
@@ -240,15 +242,15 @@ def test_a_failure_counts_only_if_it_is_seen_twice(monkeypatch, marks, status):
     assert len(ran) == min(len(marks), 2)
 
 
-def test_what_runs_now_is_told(monkeypatch, two_checks):
+def test_the_running_scenario_is_reported(monkeypatch, two_checks):
     arenas(monkeypatch, lambda scenario, scale: transcript(scenario, mark="here"))
-    told = []
+    reported = []
     watcher = grading.Watcher(
-        on_running=lambda scenarios: told.append([scenario.name for scenario in scenarios])
+        on_running=lambda scenarios: reported.append([scenario.name for scenario in scenarios])
     )
     graded(two_checks, watcher=watcher, jobs=1)
-    assert [names for names in told if names] == [["first"], ["second"]]
-    assert told[-1] == []
+    assert [names for names in reported if names] == [["first"], ["second"]]
+    assert reported[-1] == []
 
 
 def test_hidden_checks_are_refused_without_isolation(monkeypatch):

@@ -1,4 +1,4 @@
-"""Of all that lies in a hand-in, the latest real work counts, whatever its file is called; what does not is named."""
+"""The latest real work in a submitted folder is graded, whatever its file's name; the other files are named."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def notebook(program: str = WORK) -> str:
 
 
 def put(folder: Path, *files: str | tuple[str, str]) -> None:
-    """Write files with work in them, or with the given text; each an hour after the one before it."""
+    """Write files that contain work, or the given text; each is an hour newer than the previous one."""
     for number, file in enumerate(files):
         name, text = file if isinstance(file, tuple) else (file, "")
         path = folder / name
@@ -53,7 +53,7 @@ def put(folder: Path, *files: str | tuple[str, str]) -> None:
         *(f"{NAME}.ipynb.txt", f"{NAME}.ipynb.json", f"{NAME}.py.txt", f"{NAME}.py.py"),
     ],
 )
-def test_a_copy_is_the_exercises_whatever_made_it(tmp_path: Path, name: str) -> None:
+def test_a_copy_belongs_to_its_exercise_whatever_program_named_it(tmp_path: Path, name: str) -> None:
     for place in ("anna/", "bert/battery_service/", "carla/work/", "dora/Battery_Service/sub/"):
         put(tmp_path, place + name)
     works = collect(tmp_path).works
@@ -67,11 +67,11 @@ def test_a_copy_is_the_exercises_whatever_made_it(tmp_path: Path, name: str) -> 
     "name",
     ["test_battery_service.py", "battery_service_client.py", "battery.py", "battery_service.txt", "x.tar.gz"],
 )
-def test_a_file_of_another_name_is_of_no_exercise(name: str) -> None:
+def test_a_file_with_another_name_belongs_to_no_exercise(name: str) -> None:
     assert Names(files_of_exercises()).of(name) is None
 
 
-def test_in_the_exercises_own_folder_any_name_will_do(tmp_path: Path) -> None:
+def test_in_the_exercises_own_folder_any_name_is_accepted(tmp_path: Path) -> None:
     put(tmp_path, "anna/battery_service/final version.ipynb", "bert/final version.ipynb")
     put(tmp_path / "anna/battery_service", ("a file.py", ""), ("where_am_i.py", OTHER))
     collection = collect(tmp_path)
@@ -127,7 +127,7 @@ def put_case(folder: Path, files: list) -> None:
 
 @pytest.mark.parametrize(("files", "line"), CASES.values(), ids=CASES)
 @pytest.mark.parametrize("home", ["anna", f"anna/{NAME}"])
-def test_of_several_one_counts_and_the_others_are_named(
+def test_one_of_several_files_counts_and_the_others_are_named(
     tmp_path: Path, files: list, line: str, home: str
 ) -> None:
     put_case(tmp_path / home, files)
@@ -139,7 +139,7 @@ def test_of_several_one_counts_and_the_others_are_named(
     assert all(one.startswith(f"anna: {line}") for one in said)
 
 
-def test_files_of_one_time_are_told_apart_by_their_names(tmp_path: Path) -> None:
+def test_files_with_the_same_time_are_ordered_by_their_names(tmp_path: Path) -> None:
     """What was cloned or unpacked together: the notebook first, then numbers upwards, then copies."""
     order = [f"{NAME}.ipynb", f"{NAME} (2).py", f"{NAME} (1).py", f"{NAME}.py", f"{NAME}-Copy1.py"]
     for number, name in enumerate(order):
@@ -151,7 +151,7 @@ def test_files_of_one_time_are_told_apart_by_their_names(tmp_path: Path) -> None
         (tmp_path / "anna" / name).unlink()
 
 
-def test_the_starter_alone_is_what_was_handed_in(tmp_path: Path) -> None:
+def test_an_unchanged_starter_is_the_submission_if_there_is_no_other(tmp_path: Path) -> None:
     put(tmp_path, (f"anna/{NAME}/{NAME}.ipynb", STARTER.read_text()))
     (work,) = collect(tmp_path).works
     assert "# YOUR CODE HERE" in work.read().sources[FIRST]
@@ -175,7 +175,7 @@ def test_a_file_in_the_folder_of_another_exercise_is_not_taken(tmp_path: Path) -
 
 
 @pytest.mark.parametrize(("files", "line"), CASES.values(), ids=CASES)
-def test_check_takes_what_grade_takes(
+def test_check_and_grade_choose_the_same_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture, files: list, line: str
 ) -> None:
     monkeypatch.chdir(tmp_path)

@@ -1,4 +1,4 @@
-"""What a definition lacks is said with the line to write, and where a --- is missing, that is said."""
+"""The failure of an incomplete definition names the missing line, or the missing ---."""
 
 import json
 from dataclasses import asdict
@@ -49,18 +49,18 @@ def test_a_constant_in_another_part_asks_for_the_separator_too():
 
 
 def test_a_missing_line_is_given():
-    told = failure("result_has_its_fields", goal=part(GOAL), result=part({"error_code": "uint16"}))
-    assert told.help == "Add the line “string error_msg” to the result."
-    told = failure("error_codes_have_names", goal=part(GOAL), result=part(RESULT))
-    assert told.help.startswith("Add the line “uint16 NONE=0” to the result")
+    reported = failure("result_has_its_fields", goal=part(GOAL), result=part({"error_code": "uint16"}))
+    assert reported.help == "Add the line “string error_msg” to the result."
+    reported = failure("error_codes_have_names", goal=part(GOAL), result=part(RESULT))
+    assert reported.help.startswith("Add the line “uint16 NONE=0” to the result")
 
 
 def test_a_field_of_another_name_is_to_be_renamed():
     response = {"success": "bool", **{name: RESPONSE[name] for name in ("battery", "message")}}
-    told = failure(
+    reported = failure(
         "response_has_its_fields", "GetBatteryStatus.srv", request=part({}), response=part(response)
     )
-    assert told.help.startswith("Rename `success` to `available`")
+    assert reported.help.startswith("Rename `success` to `available`")
 
 
 @pytest.mark.parametrize(
@@ -70,10 +70,10 @@ def test_a_field_of_another_name_is_to_be_renamed():
         ({"tolerance": "float64"}, "float64 is a different type"),
     ],
 )
-def test_a_wrong_type_is_told_what_it_lacks(fields, reason):
-    told = failure("goal_has_its_fields", goal=part(GOAL | fields))
-    assert reason in told.help
-    assert told.help.startswith("Write ")
+def test_a_wrong_type_is_reported_with_the_right_one(fields, reason):
+    reported = failure("goal_has_its_fields", goal=part(GOAL | fields))
+    assert reason in reported.help
+    assert reported.help.startswith("Write ")
 
 
 def test_a_constant_of_another_value():
@@ -100,7 +100,7 @@ def test_a_field_too_many_is_to_be_removed():
         ),
     ],
 )
-def test_what_the_build_refuses_is_told_with_what_to_write(line, text, expected, next_step):
+def test_a_line_that_the_build_refuses_is_corrected(line, text, expected, next_step):
     problem = {"line": line, "text": text, "wrong": "it is wrong", "expected": expected}
     report = {"built": False, "problems": [problem], "more": 0, "log": ""}
     assert failure_of("action_builds", "NavigateToPose.action", report).help == next_step
@@ -111,6 +111,6 @@ def test_a_file_that_was_not_handed_in(tmp_path):
         read_definitions(tmp_path, "my_interfaces", KnownTypes({}))
     problems = [asdict(problem) for problem in nothing.value.problems]
     report = {"built": False, "problems": problems, "more": 0, "log": ""}
-    told = failure_of("action_builds", "NavigateToPose.action", report)
-    assert told.observed == "it was not handed in"
-    assert "%%writefile NavigateToPose.action" in told.help
+    reported = failure_of("action_builds", "NavigateToPose.action", report)
+    assert reported.observed == "it was not handed in"
+    assert "%%writefile NavigateToPose.action" in reported.help

@@ -1,4 +1,4 @@
-"""An answer of the joint query is compared with every message that may have been the last."""
+"""A response of the joint query is compared with every message that may have been the latest one."""
 
 import pytest
 
@@ -50,14 +50,14 @@ def judge(obligation, *events, steps=()):
 
 
 def test_a_name_that_was_asked_for_twice_is_answered_twice():
-    heard = list(published(0.2, 3.0))
-    assert judge("keeps_the_order_asked", heard, asked(2.5, ["r_elbow", "l_elbow", "r_elbow"])) == {
+    messages = list(published(0.2, 3.0))
+    assert judge("keeps_the_order_asked", messages, asked(2.5, ["r_elbow", "l_elbow", "r_elbow"])) == {
         "a name twice": 1
     }
     once = [*asked(2.5, ["r_elbow", "l_elbow", "r_elbow"])]
     once[1].response.joint_state.name = ["r_elbow", "l_elbow"]
     with pytest.raises(Failure) as failure:
-        judge("keeps_the_order_asked", heard, once)
+        judge("keeps_the_order_asked", messages, once)
     assert failure.value.help.endswith("A name that is twice in the request is twice in the response.")
 
 
@@ -85,14 +85,14 @@ def test_before_the_first_message_nothing_is_known():
         judge("says_when_it_knows_nothing", asked(2.0, ["l_elbow"]), steps=unplugged)
 
 
-def test_a_node_that_does_not_listen_has_failed_and_not_only_shown_nothing():
+def test_a_node_that_does_not_subscribe_fails():
     with pytest.raises(Failure, match="success: true"):
         judge("finds_the_joints", asked(2.0, ["l_elbow"], success=False), steps=[["let_arrive"]])
     with pytest.raises(Failure, match="your node had received no joint_states"):
         judge("positions_are_the_last", asked(2.0, ["l_elbow"]), steps=[["let_arrive"]])
 
 
-def test_in_a_silence_the_last_message_stays_the_answer():
+def test_while_no_messages_come_the_last_one_stays_the_answer():
     off = ev.RobotCommanded(t=3.0, command={"do": "joint_sensors", "connected": False})
     heard = [*published(0.2, 3.0), off]
     assert judge("finds_the_joints", heard, asked(14.0, ["l_elbow"])) == {"a pause of 10 s or more": 1}
@@ -103,14 +103,14 @@ def test_in_a_silence_the_last_message_stays_the_answer():
 
 @pytest.mark.parametrize("name", ["elbow", "R_Elbow", " r_elbow", "r_elbow ", "", "tail"])
 def test_names_count_letter_by_letter(name):
-    heard = list(published(0.2, 3.0))
-    assert judge("refuses_unknown_joints", heard, asked(2.5, ["l_elbow", name], success=False))
+    messages = list(published(0.2, 3.0))
+    assert judge("refuses_unknown_joints", messages, asked(2.5, ["l_elbow", name], success=False))
     with pytest.raises(Failure, match="success: false"):
-        judge("refuses_unknown_joints", heard, asked(2.5, ["l_elbow", name]))
+        judge("refuses_unknown_joints", messages, asked(2.5, ["l_elbow", name]))
 
 
 @pytest.mark.parametrize("message", ["no r_elbow", "no such joint: r_elbow_2", "l_elbow, which is known"])
-def test_a_part_of_another_name_names_no_joint(message):
+def test_a_part_of_a_joints_name_does_not_name_it(message):
     with pytest.raises(Failure, match="without elbow"):
         judge(
             "names_every_unknown_joint",
@@ -120,7 +120,7 @@ def test_a_part_of_another_name_names_no_joint(message):
 
 
 @pytest.mark.parametrize(("period", "is_stale"), [(0.05, False), (0.5, True), (2.0, True)])
-def test_a_table_that_is_renewed_at_intervals_is_told_from_the_messages(period, is_stale):
+def test_a_cache_that_is_refreshed_at_intervals_is_detected(period, is_stale):
     def answers():
         for number in range(12):
             t = 2.5 + 0.15 * number

@@ -1,4 +1,4 @@
-"""A walk is judged by where the robot was and when, as the simulator says, and by what the server commanded."""
+"""A walk is judged by the simulator's poses of the robot over time, and by the server's commands."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def test_a_walk_is_as_fast_as_it_may_be():
 @pytest.mark.parametrize(
     ("velocity", "advice"), [(0.14, "linear.x and linear.y together"), (0.35, "Read goal_handle")]
 )
-def test_a_walk_that_is_too_fast_is_told_by_how_much_it_is(velocity, advice):
+def test_a_walk_that_is_too_fast_is_reported_with_the_excess(velocity, advice):
     with pytest.raises(Failure, match=f"{velocity:.2f} m/s") as failed:
         require_limited_velocity(walked(straight(velocity), 12.0).goal("walk"))
     assert advice in failed.value.help
@@ -104,7 +104,7 @@ def test_a_walk_that_is_too_fast_is_told_by_how_much_it_is(velocity, advice):
         (lambda t: (min(1.0, 0.1 * t), 1.0), "right heading"),
     ],
 )
-def test_a_robot_that_does_not_get_there_is_told_what_it_did(motion, advice):
+def test_a_robot_that_does_not_arrive_is_reported_with_its_motion(motion, advice):
     with pytest.raises(Failure) as failed:
         require_reached(walked(motion, 12.0).goal("walk"))
     assert advice in failed.value.help
@@ -141,7 +141,7 @@ def test_a_twist_after_the_end_steers_without_a_goal():
         does_not_steer_without_a_goal(run)
 
 
-def test_without_any_twist_nothing_is_proved():
+def test_without_any_twist_the_check_does_not_pass():
     run = walked(straight(0.1), 12.0)
     with pytest.raises(CannotBeJudged):
         ends_with_a_zero_twist(run.goal("walk"))

@@ -1,4 +1,4 @@
-"""The headers of the submissions whose verdict is known: they name checks, and each check has a fault of its own."""
+"""The headers of the known submissions: they name existing checks, and each check has a fault that only it finds."""
 
 import pytest
 
@@ -39,7 +39,7 @@ def test_every_check_is_named_by_a_faulty_submission(name):
 
 @pytest.mark.parametrize("name", EXERCISES)
 def test_every_check_has_a_fault_that_it_alone_catches(name):
-    """So each holds something that no other holds; what needs it is not run where it fails."""
+    """So each check tests something that no other does; checks that depend on it are not run if it fails."""
     faulty = [known for known in KNOWN if known.exercise == name and known.kind == "faulty"]
     alone = {known.caught_by[0] for known in faulty if len(known.caught_by) == 1 and not known.also_fails}
     never = {check.id for check in EXERCISES[name].checks} - alone

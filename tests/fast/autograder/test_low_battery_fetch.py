@@ -1,4 +1,4 @@
-"""How a fetch is judged by its children, on records made by hand: a sound server and its near misses."""
+"""A fetch is judged by its child goals, on records made by hand: a correct server and slightly faulty ones."""
 
 from __future__ import annotations
 
@@ -152,7 +152,7 @@ def test_near_misses_of_giving_up(parts: list[list[Any]], observed: str) -> None
     assert observed in failure("gives_up_before_the_grasp", *parts).observed
 
 
-def test_a_battery_that_never_dropped_proves_nothing() -> None:
+def test_without_a_drop_of_the_battery_the_check_does_not_pass() -> None:
     with pytest.raises(CannotBeJudged):
         judge("gives_up_before_the_grasp", fetch(1.0, 9.6, SUCCEEDED), *FOUR)
 
@@ -162,7 +162,7 @@ def test_a_fetch_that_ends_before_the_battery_drops_was_not_under_way() -> None:
     assert "SUCCEEDED while navigate_to_pose was still active" in early.observed
 
 
-def test_a_cancel_goes_down_and_the_child_ends_first() -> None:
+def test_a_cancel_is_passed_to_the_child_which_ends_first() -> None:
     asked, at_work = [canceled_fetch(2.0), cancel(2.1)], child(1, walk(TABLE), 1.2, 3.6, CANCELED)
     judge("cancel_goes_down", fetch(1.0, 3.7, CANCELED), *asked, at_work)
     assert "still active" in failure("cancel_goes_down", fetch(1.0, 2.3, CANCELED), *asked, at_work).observed

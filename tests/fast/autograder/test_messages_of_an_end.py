@@ -1,4 +1,4 @@
-"""A program that ended by itself is told one remedy, chosen by its last words."""
+"""The failure of a program that ended by itself has one remedy, chosen by its last lines."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ NO_RETURN = said(
         (said("ValueError: 3"), "An exception in a callback ends rclpy.spin(), and with it the node."),
     ],
 )
-def test_a_program_that_ends_with_an_error_is_told_what_its_last_words_mean(
+def test_a_program_that_ends_with_an_error_gets_an_explanation_of_its_last_line(
     lines: list[Any], next_step: str
 ) -> None:
     run = run_of(asked(), *lines, ev.NodeExited(t=3.1, returncode=1))
@@ -75,7 +75,7 @@ def test_a_traceback_that_did_not_end_the_program_is_not_taken_for_the_one_that_
     assert failure_of(lambda: run.call("first").response).help.startswith("An exception in a callback")
 
 
-def test_a_program_that_does_not_end_on_ctrl_c_is_told_where_it_stood() -> None:
+def test_for_a_program_that_ignores_ctrl_c_the_running_line_is_reported() -> None:
     run = run_of(
         ev.NodeSignalled(t=8.0, signal="SIGINT"), stack('"/tmp/work/status.py", line 44 in main'), until=13.0
     )
@@ -89,7 +89,7 @@ def test_a_crash_below_python_is_named() -> None:
     assert failure_of(lambda: run.call("first").response).help.startswith("SIGSEGV ended the program")
 
 
-def test_a_silent_server_is_told_that_its_topic_went_on() -> None:
+def test_for_a_silent_server_its_continuing_topic_is_reported() -> None:
     published = [ev.BatteryPublished(t=2.5 + second, message=BatteryState()) for second in range(4)]
     failure = failure_of(
         lambda: run_of(asked(), *published, given_up("call", "first")).call("first").response
@@ -97,7 +97,7 @@ def test_a_silent_server_is_told_that_its_topic_went_on() -> None:
     assert failure.observed == "none within 5 s; the robot published battery_state 4 times meanwhile"
 
 
-def test_a_server_that_ends_by_itself_is_told_to_spin() -> None:
+def test_a_server_that_ends_by_itself_is_advised_to_spin() -> None:
     run = run_of(asked(), answered(), asked("second", t=3.0), ev.NodeExited(t=2.9, returncode=0))
     failure = failure_of(lambda: run.call("second").response)
     assert failure.observed == "the program ended by itself with status 0 after 1 answer"

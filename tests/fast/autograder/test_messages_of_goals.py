@@ -107,12 +107,12 @@ FORBIDDEN = said(
         ([], "execute called goal_handle.abort(): check the condition before this call."),
     ],
 )
-def test_an_aborted_goal_is_told_who_aborted_it(lines: list[Any], next_step: str) -> None:
+def test_for_an_aborted_goal_the_cause_is_named(lines: list[Any], next_step: str) -> None:
     failure = failure_of(goal_run(*lines, result(ABORTED)).require_result, SUCCEEDED)
     assert failure.help.startswith(next_step)
 
 
-def test_a_second_goal_that_is_rejected_is_told_that_the_first_has_ended() -> None:
+def test_for_a_rejected_second_goal_the_end_of_the_first_is_reported() -> None:
     run = run_of(
         ev.GoalSent(t=2.0, goal="walk", action="walk_to", request=WalkTo.Goal()),
         ev.GoalAnswered(t=2.1, goal="walk", accepted=True),
@@ -144,7 +144,7 @@ def test_a_cancel_after_an_early_end_is_about_that_end() -> None:
     assert "execute raised an exception" in failure.help
 
 
-def test_a_goal_callback_that_raises_is_told_to_reject() -> None:
+def test_a_goal_callback_that_raises_is_advised_to_reject() -> None:
     sent = ev.GoalSent(t=2.0, goal="walk", action="walk_to", request=WalkTo.Goal())
     goal = run_of(sent, *said("ValueError: no"), ev.NodeExited(t=3.1, returncode=1)).goal("walk")
     assert "return GoalResponse.REJECT instead" in failure_of(goal.require_rejected, because="", help="").help
@@ -159,7 +159,7 @@ def test_a_goal_callback_that_raises_is_told_to_reject() -> None:
         (0.90, None, "Compare odom with the goal's pose"),
     ],
 )
-def test_a_robot_that_has_not_arrived_is_told_which_test_was_too_generous(
+def test_for_a_robot_that_has_not_arrived_the_cause_is_named(
     x: float, claimed: float | None, next_step: str
 ) -> None:
     sent = ev.GoalSent(t=2.0, goal="walk", action="walk_to", request=WalkTo.Goal())

@@ -1,4 +1,4 @@
-"""Motors that stay on are explained by what came on their topic."""
+"""Motors that stay on are explained by the messages on motor_power."""
 
 from __future__ import annotations
 
@@ -122,7 +122,9 @@ def test_a_wrong_status_is_explained_by_the_answers_so_far(
         (lambda t: t < 4.0, "power off", "If data is false and the last robot_state.mode is WALKING"),
     ],
 )
-def test_a_refusal_that_says_success_is_told_from_none(motors: Any, message: str, next_step: str) -> None:
+def test_a_refusal_with_success_true_is_distinguished_from_no_refusal(
+    motors: Any, message: str, next_step: str
+) -> None:
     walk = ev.RobotCommanded(t=2.0, command={"do": "walk", "velocity": [0.3, 0.0, 0.0]})
     off = switch("off", False, 4.0, message=message)
     run = run_of(*truth(motors=motors, mode=RobotState.WALKING), walk, *off)

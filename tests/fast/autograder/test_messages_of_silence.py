@@ -1,4 +1,4 @@
-"""A program that does not answer, or offers another name, is told where it stands."""
+"""The failure of a program that does not answer names the running line; that of a wrong name, the nearest one."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from autograder.authoring.requirements.client_checks import require_end
         (SPINNING, "a callback awaits something that never completes"),
     ],
 )
-def test_a_server_that_gives_no_answer_is_told_where_it_stood(
+def test_for_a_server_without_an_answer_the_running_line_is_reported(
     frames: tuple[str, ...], next_step: str
 ) -> None:
     run = run_of(asked(), given_up("call", "first"), stack(*frames))
@@ -65,7 +65,9 @@ def reply(number: int, t: float = 2.2) -> Any:
         ([request(1), reply(1)], "It kept running after the last answer, at 2.2 s: do not spin after it"),
     ],
 )
-def test_a_client_that_never_ends_is_told_at_which_of_three_places(events: list[Any], next_step: str) -> None:
+def test_for_a_client_that_never_ends_one_of_three_causes_is_reported(
+    events: list[Any], next_step: str
+) -> None:
     failure = failure_of(require_end, run_of(offered("get_status"), *events), 10.0)
     assert failure.help.startswith(next_step)
 

@@ -1,4 +1,4 @@
-"""What is missing from a transcript is said in a sentence, with the reason where there is one."""
+"""The failure for a missing event is a sentence, with the reason if one is known."""
 
 from dataclasses import replace
 
@@ -96,12 +96,12 @@ def test_a_goal_that_nobody_asked_to_cancel_is_a_failure_of_the_submission():
         transcript(sent, EXITED).goal("walk").requests_to_cancel  # noqa: B018
 
 
-def test_an_answer_that_came_when_nobody_waited_any_more_is_none():
+def test_an_answer_after_the_timeout_does_not_count():
     run = transcript(ASKED, GIVEN_UP, replace(ANSWERED, t=7.01))
     assert run.call("first").answer is None
 
 
-def test_an_event_that_is_there_twice_counts_once():
+def test_a_duplicate_event_counts_once():
     assert len(transcript(ASKED, ASKED, ANSWERED, ANSWERED).calls) == 1
 
 
@@ -113,7 +113,7 @@ def test_an_event_that_is_there_twice_counts_once():
         lambda run: run.last_command("push"),
     ],
 )
-def test_what_the_arena_left_out_gives_no_grade_unless_the_submission_is_the_reason(ask):
+def test_events_missing_by_the_arenas_fault_give_no_grade_unless_the_submission_caused_it(ask):
     with pytest.raises(CannotBeJudged):
         ask(transcript(robot_until=4.0))
     with pytest.raises(
@@ -122,7 +122,7 @@ def test_what_the_arena_left_out_gives_no_grade_unless_the_submission_is_the_rea
         ask(transcript(REFUSED, robot_until=4.0))
 
 
-def test_the_sentence_says_what_was_unseen_and_why():
+def test_the_sentence_names_the_missing_event_and_the_reason():
     assert str(unseen(transcript(), "nobody pressed Ctrl-C")) == "ask: nobody pressed Ctrl-C"
     failure = unseen(transcript(BUSY), "nobody pressed Ctrl-C")
     assert isinstance(failure, Failure)
@@ -135,7 +135,7 @@ def test_the_sentence_says_what_was_unseen_and_why():
 # -- the record as a whole --------------------------------------------------------------------------------------------
 
 
-def test_a_whole_record_is_no_reason_to_fail():
+def test_a_complete_record_does_not_fail():
     require_whole(transcript(ASKED, ANSWERED), WITH_ROBOT)
 
 
@@ -161,7 +161,7 @@ def test_each_limit_has_a_remedy_of_its_own(reason, help):
 
 
 def test_a_sound_program_on_a_busy_machine_is_not_to_blame():
-    """It has used no more than on an idle one, although it took longer, and started while it waited for others."""
+    """It used as much processor time as on an idle machine, but took longer, and waited for others at its start."""
     slow_start = replace(BUSY, cpu=3.5, wall=3.6, cpu_in_time=1.9, in_time=1.0, burst=1.2)
     for usage in (slow_start, replace(slow_start, cpu_in_time=4.0, in_time=30.0)):
         with pytest.raises(CannotBeJudged):
@@ -202,7 +202,7 @@ def test_each_command_must_have_taken_effect_once():
         require_whole(transcript(SENT, REFUSED), WITH_ROBOT)
 
 
-def test_a_command_that_took_effect_late_is_the_fault_of_who_held_the_robot_up():
+def test_a_late_command_is_the_fault_of_the_submission_that_delayed_the_robot():
     require_whole(transcript(SENT, obeyed(6.0)), WITH_ROBOT)
     with pytest.raises(Failure, match=r"at 3\.0 s until 6\.0 s"):
         require_whole(transcript(SENT, obeyed(6.0), REFUSED), WITH_ROBOT)
@@ -233,7 +233,7 @@ def test_a_verdict_of_each_kind():
     assert "AttributeError" in broken.help
 
 
-def test_what_the_submission_alone_decides_and_does_not_show_costs_it_the_points_in_the_end():
+def test_missing_evidence_that_depends_only_on_the_submission_costs_points_in_the_end():
     quiet = transcript(ASKED, ANSWERED)
 
     def never_walks(run):

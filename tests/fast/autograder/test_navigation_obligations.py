@@ -1,4 +1,4 @@
-"""Goals of navigate_to_pose: judged with their own tolerance, and by what an operator did on the way to each."""
+"""Goals of navigate_to_pose are judged by their own tolerance and by the operator's actions during each goal."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def test_the_path_is_what_was_walked_however_the_goal_ends():
     canceled = ended(12.0, status=GoalStatus.CANCELED, traveled=0.5)
     assert model.measures_its_path.require(
         run_of(*goal(), canceled).goal("go")
-    )  # a last leg may go uncounted
+    )  # the last part of the path may not be counted
 
 
 def test_progress_and_recoveries_are_of_this_goal():

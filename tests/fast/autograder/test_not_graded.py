@@ -12,29 +12,24 @@ from pathlib import Path
 PROJECT = Path(__file__).parents[3]
 SAYING = ("CannotBeJudged", "NotGraded", "NoOccasion", "unseen", "not_shown", "held_up", "not_graded")
 
-# The record lacks an event of the grader: the program had exited, been killed, or delayed the robot.
+# The record lacks an event of the grader, because the program exited, was killed, or delayed the robot.
 LEAVES = "arena/autograder/test_evidence.py::test_a_program_that_leaves_at_any_moment_is_judged"
-HOLDS_UP = "fast/autograder/test_missing.py::test_a_submission_that_holds_the_robot_up_fails"
-LATE = "fast/autograder/test_missing.py::test_a_command_that_took_effect_late_is_the_fault_of_who_held_the_robot_up"
-FLOODS = (
-    "fast/autograder/test_bounds.py::test_a_flooded_graph_is_told_in_its_own_words_cut_to_a_readable_length"
-)
+HOLDS_UP = "fast/autograder/test_missing.py::test_a_submission_that_delays_the_robot_fails"
+LATE = "fast/autograder/test_missing.py::test_a_late_command_is_the_fault_of_the_submission_that_delayed_the_robot"
+FLOODS = "fast/autograder/test_bounds.py::test_a_flooded_graph_is_quoted_in_readable_length"
 # The program alone decides whether it does what a check looks at.
 NEVER_SHOWS = (
     "fast/autograder/test_missing.py::"
-    "test_what_the_submission_alone_decides_and_does_not_show_costs_it_the_points_in_the_end"
+    "test_missing_evidence_that_depends_only_on_the_submission_costs_points_in_the_end"
 )
-NO_OCCASION = (
-    "fast/autograder/test_obligations.py::"
-    "test_a_submission_that_never_gives_occasion_has_failed_and_is_not_ungraded"
-)
-# It takes what there is of memory, processors or time, or sends what nobody can read.
+NO_OCCASION = "fast/autograder/test_obligations.py::test_a_submission_for_which_no_obligation_applies_fails"
+# The program uses up memory, processors or time, or sends unreadable data.
 FILLS = "arena/isolation/test_student_sandbox.py::test_a_memory_bomb_ends_the_arena_and_names_the_cause"
 STARVES = "fast/arena/test_processor_time.py::test_twelve_busy_processes_that_share_a_processor_lose_nothing"
 UNREADABLE = (
     "fast/arena/test_spinning.py::test_messages_that_cannot_be_read_are_counted_and_the_next_one_is_taken"
 )
-BUILDS = "fast/autograder/test_interfaces_exercise.py::test_what_the_build_refuses_is_told_with_what_to_write"
+BUILDS = "fast/autograder/test_interfaces_exercise.py::test_a_line_that_the_build_refuses_is_corrected"
 BAD_FILE = (
     "fast/batch/test_runner.py::test_infrastructure_failures_are_not_graded_and_bad_submissions_are_zero"
 )
@@ -87,7 +82,7 @@ PLACES = {
 
 
 def said_in(node: ast.AST, function: str = "") -> Iterator[str]:
-    """Yield the functions in which something is called that ends in "not graded"."""
+    """Yield the functions with a call that leads to "not graded"."""
     for child in ast.iter_child_nodes(node):
         if isinstance(child, ast.Call):
             called = getattr(child.func, "id", getattr(child.func, "attr", ""))
@@ -96,7 +91,7 @@ def said_in(node: ast.AST, function: str = "") -> Iterator[str]:
         yield from said_in(child, child.name if isinstance(child, ast.FunctionDef) else function)
 
 
-def test_each_place_that_can_say_not_graded_is_listed() -> None:
+def test_each_function_that_can_return_not_graded_is_listed() -> None:
     found = {
         f"{path.relative_to(PROJECT)} {function}"
         for folder in ("autograder", "solutions")
@@ -108,7 +103,7 @@ def test_each_place_that_can_say_not_graded_is_listed() -> None:
     assert found == {f"{path} {function}" for path, *functions in listed for function in functions}
 
 
-def test_each_has_a_test_in_which_a_program_leads_there_and_is_judged() -> None:
+def test_each_has_a_test_in_which_a_program_causes_it_and_is_judged() -> None:
     for test in PLACES:
         path, name = test.split("::")
         assert f"def {name}(" in (PROJECT / "tests" / path).read_text(), test

@@ -1,4 +1,4 @@
-"""Obligations hold in every scenario: what a check of them is judged on, retried for, and says."""
+"""Obligations: on which scenarios a check of them is judged and retried, and the text of its failure."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ ONE_JOB = grading.GradingOptions(jobs=1, isolation=ISOLATED)
 
 
 def run_of(scenario, *, said="", steps_done=None, missing=()):
-    """A run of a sequence, a step a second, in which the node prints `said` at the end of the last step."""
+    """A run of a sequence with one step per second; the node prints `said` at the end of the last step."""
     steps = scenario.draw(0)["steps"]
     done = len(steps) if steps_done is None else steps_done
     marks = [ev.Mark(t=float(number), name=f"step {number}") for number in range(1, done + 1)]
@@ -51,7 +51,7 @@ def check_on(*scenarios):
     return replace(check_of(prints, points=2, on=scenarios), id="prints")
 
 
-def test_it_says_its_clauses_its_sentence_and_its_situations():
+def test_its_title_has_clauses_sentence_and_situations():
     check = check_on(ASK)
     assert (check.clauses, check.title, check.obligations) == ((2,), "It prints something good", (prints,))
     assert prints.judge(run_of(ASK, said="good")) == {"good": 1}
@@ -64,7 +64,7 @@ def test_a_failure_points_to_the_lesson_of_the_obligation_unless_its_check_names
         with pytest.raises(Failure) as failed:
             check_of([whole, taught], on=ASK, see=see).run([run_of(ASK, said="bad")])
         assert failed.value.see == expected
-    assert check_of([whole, taught], on=ASK).see == whole.see  # where none of them fails alone
+    assert check_of([whole, taught], on=ASK).see == whole.see  # if none of them fails alone
 
 
 def test_its_id_is_the_name_of_its_variable():
@@ -73,23 +73,23 @@ def test_its_id_is_the_name_of_its_variable():
     assert [check.id for check in checks_in(module)] == ["prints_something", "again"]
 
 
-def test_a_submission_that_never_gives_occasion_has_failed_and_is_not_ungraded(monkeypatch):
+def test_a_submission_for_which_no_obligation_applies_fails(monkeypatch):
     ran = arenas(monkeypatch, lambda scenario, scale: run_of(scenario))
     grade = grading.grade(SUBMISSION, exercise(check_on(ASK)), ONE_JOB)
     assert statuses(grade) == {"prints": "failed"}
     assert grade.checks[0].expected == "an answer from which this can be judged: It prints something good"
     assert (
         len(ran) == grading.MOST_ATTEMPTS["error"]
-    )  # each on a slower clock, as the machine may be to blame
+    )  # each at a lower scale, because the machine may be the cause
 
 
-def test_an_occasion_that_a_slower_clock_gives_is_enough(monkeypatch):
+def test_an_obligation_that_applies_on_a_slower_clock_is_enough(monkeypatch):
     arenas(monkeypatch, lambda scenario, scale: run_of(scenario, said="good" if scale < 5.0 else ""))
     grade = grading.grade(SUBMISSION, exercise(check_on(ASK)), ONE_JOB)
     assert statuses(grade) == {"prints": "passed"}
 
 
-def test_steps_that_were_not_carried_out_are_no_pass():
+def test_a_run_with_missing_steps_does_not_pass():
     with pytest.raises(Missing, match="step 2 of the scenario"):
         check_on(ASK).run([run_of(ASK, said="good", steps_done=1)])
 
@@ -121,7 +121,7 @@ def test_a_failure_names_the_shortest_steps_that_show_it(monkeypatch, least, nam
     assert grade.checks[0].observed == f"bad; steps: {named}"
 
 
-def test_steps_that_make_no_scenario_by_themselves_are_left(monkeypatch):
+def test_steps_that_are_not_a_scenario_alone_are_not_shortened(monkeypatch):
     def answer(scenario, scale):
         if scenario is not DRAWN:
             raise grading.NotGraded("KeyError: 'goal'")
@@ -132,7 +132,7 @@ def test_steps_that_make_no_scenario_by_themselves_are_left(monkeypatch):
     assert statuses(grade) == {"prints": "failed"}
 
 
-def test_an_arena_that_ends_early_passes_nothing(monkeypatch):
+def test_with_an_arena_that_ends_early_no_check_passes(monkeypatch):
     arenas(monkeypatch, lambda scenario, scale: run_of(scenario, said="good", missing=("mark",)))
     grade = grading.grade(SUBMISSION, exercise(check_on(ASK)), ONE_JOB)
     assert grade.score == 0

@@ -1,4 +1,4 @@
-"""A notebook is what IPython makes of it, whatever else is in the file: for a self-check and for a grade alike."""
+"""Self-checks and grading read a notebook's cells as IPython does, whatever else is in the file."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def shell():
 
 
 @pytest.mark.parametrize("cells", [*MAGICS.values(), *(cells for cells, _ in WRITES_NOTHING.values())])
-def test_cells_write_here_what_they_write_in_ipython(tmp_path, monkeypatch, shell, cells):
+def test_cells_write_the_same_files_as_in_ipython(tmp_path, monkeypatch, shell, cells):
     monkeypatch.chdir(tmp_path)
     for cell in cells:
         shell.run_cell(cell)
@@ -91,7 +91,7 @@ def test_cells_write_here_what_they_write_in_ipython(tmp_path, monkeypatch, shel
 
 
 def file_of(cells, version, minor, ids, extra):
-    """Return a notebook's file: bytes as tools of many years wrote them."""
+    """Return the bytes of a notebook's file, as tools of several years have written them."""
     made = [
         {
             "cell_type": "code",
@@ -163,7 +163,7 @@ def test_a_cell_that_writes_nothing_in_jupyter_is_named_with_the_reason(tmp_path
         read_submission(file, NAME)
 
 
-def test_half_a_character_is_named_with_its_line(tmp_path):
+def test_a_lone_surrogate_is_named_with_its_line(tmp_path):
     file = tmp_path / "work.ipynb"
     file.write_bytes(file_of([f"%%writefile {NAME}.py\nx = 1\n# \ud83d\n"], 4, 5, "own", USUAL))
     with pytest.raises(
@@ -196,7 +196,7 @@ def test_an_authors_notebook_of_any_format_becomes_a_valid_one_the_same_each_tim
     assert capfd.readouterr() == ("", "")
 
 
-def test_an_authors_file_that_is_no_notebook_is_named(tmp_path):
+def test_an_authors_file_that_is_not_a_notebook_is_named(tmp_path):
     (tmp_path / "own.ipynb").write_text("{}")
     with pytest.raises(UnusableExercise, match=r"own\.ipynb is not a notebook"):
         read_source(tmp_path / "own.ipynb")

@@ -1,4 +1,4 @@
-"""An arena that a submission fills faster than it can be ended is its failure, and not "not graded"."""
+"""A submission that exceeds the arena's memory faster than it can be ended fails; it is not "not graded"."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ EVENTS = b"".join(map(to_line, (NodeStarted(t=10.0), NodeReady(t=12.0, waited=1.
 
 
 class _EndedArenas:
-    """Arenas that end as they are told."""
+    """Arenas that end in a given way."""
 
     def __init__(self, ended: Ended) -> None:
         output = CapturedOutput(1)
@@ -50,6 +50,6 @@ def test_it_is_graded_and_says_how_much_was_taken():
 
 
 @pytest.mark.parametrize("ended", [Ended.DEADLINE, Ended.EXIT, Ended.KILLED])
-def test_any_other_end_is_nobodys_failure(ended):
+def test_any_other_end_is_not_the_students_failure(ended):
     with pytest.raises(NotGraded):
         run_in_arena(RUN, arenas=_EndedArenas(ended))

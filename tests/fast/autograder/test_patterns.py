@@ -1,4 +1,4 @@
-"""Each situation is marked by itself, and nothing is given for what is not answered."""
+"""Each situation is marked separately, and a missing answer gets no points."""
 
 import pytest
 
@@ -26,11 +26,11 @@ def points(*lines):
     return sum(verdict.points for verdict in verdicts(*lines).values())
 
 
-def test_all_right_is_all_points():
+def test_all_answers_right_gives_all_points():
     assert points(*LINES) == 13
 
 
-def test_nothing_answered_is_no_point():
+def test_no_answers_give_no_points():
     assert points() == 0
 
 
@@ -47,19 +47,19 @@ def test_what_is_not_answered_is_named():
     assert (seen["situation_7"].observed, seen["situation_7"].points) == ("no answer", 0)
 
 
-def test_nothing_printed_and_another_form_are_told_apart():
+def test_no_output_and_a_wrong_format_are_distinguished():
     assert "Nothing was printed" in verdicts()["answers_everything"].help
     told = verdicts("1) I say: topic, because of a")["situation_1"]
     assert "is not in the right form" in told.help
 
 
-def test_an_answer_in_another_form_spoils_no_other():
+def test_an_answer_in_a_wrong_format_does_not_affect_others():
     seen = verdicts(*LINES[:-1], "12 parameter a")
     assert sum(verdict.points for verdict in seen.values()) == 11
     assert seen["situation_12"].observed == "parameter a"
 
 
-def test_a_wrong_answer_is_told_what_speaks_against_it():
+def test_a_wrong_answer_fails_with_the_reason_against_it():
     seen = verdicts(*LINES[:8], "9 action c", "10 topic c", "11 service c", "12 action c")
     assert (
         "Which part moves does not matter. What matters is that the step can be cancelled."
@@ -68,6 +68,6 @@ def test_a_wrong_answer_is_told_what_speaks_against_it():
     assert "What matters is whether it is accepted" in seen["situation_11"].help
 
 
-def test_a_number_of_thousands_of_digits_is_no_situation():
+def test_a_number_of_thousands_of_digits_is_not_read_as_a_situation():
     seen = verdicts(*LINES, "9" * 5000 + " topic a")
     assert all(verdict.status == "passed" for verdict in seen.values())

@@ -1,4 +1,4 @@
-"""What is required of a hand and a cup, and what is said of those that do something else."""
+"""The requirements on hand and cup, and the failures of servers that violate them."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ OF_A_FETCH = [
 
 
 @pytest.mark.parametrize("check", OF_A_FETCH)
-def test_a_sound_fetch_passes(check: str) -> None:
+def test_a_correct_fetch_passes(check: str) -> None:
     CHECKS[check].run([fetched()])
 
 
@@ -167,8 +167,8 @@ def test_a_sound_fetch_passes(check: str) -> None:
         ("percentage_rises", {"tell": set_field("percent_complete", lambda t: 90.0 - t)}, "its own range"),
     ],
 )
-def test_another_fetch_fails_with_what_to_do(check: str, change: dict, words: str) -> None:
-    if not words:  # pushed along the table, which another check forbids
+def test_a_faulty_fetch_fails_with_its_next_step(check: str, change: dict, words: str) -> None:
+    if not words:  # the cup was pushed along the table, which another check forbids
         CHECKS[check].run([fetched(**change)])
         return
     assert words in failure_of(CHECKS[check].run, [fetched(**change)]).help
@@ -212,13 +212,13 @@ def test_a_lost_cup_ends_with_its_code() -> None:
         (77, "find out why your server aborted it"),
     ],
 )
-def test_a_server_that_gives_up_is_asked_about_its_own_reason(code: int, words: str) -> None:
+def test_for_a_server_that_gives_up_its_own_reason_is_quoted(code: int, words: str) -> None:
     failure = failure_of(CHECKS["places_the_cup"].run, [aborted(code)])
     assert words in failure.help
     assert "'no'" in failure.observed
 
 
-def test_a_cup_that_was_never_taken_away_says_nothing_of_the_server() -> None:
+def test_if_the_cup_was_never_removed_the_check_does_not_pass() -> None:
     never = aborted(PickAndPlace.Result.DROPPED)
     with pytest.raises(CannotBeJudged):
         CHECKS["notices_a_lost_cup"].run([never])

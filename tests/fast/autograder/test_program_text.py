@@ -1,4 +1,4 @@
-"""A program is read as Python reads it, and what is none is named as what it is."""
+"""A program is read as Python reads it, and a file that is not a program is named by its format."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ NOTEBOOK = {"cells": [], "metadata": {}, "nbformat": 4, "nbformat_minor": 5}
 
 @pytest.fixture
 def read(tmp_path: Path):
-    """Write what is handed in as battery_service.py, and read it."""
+    """Write a submission as battery_service.py, and read it."""
 
     def write_and_read(content: bytes | str) -> Submission:
         path = tmp_path / f"{EXERCISE}.py"
@@ -71,19 +71,19 @@ def test_a_program_is_read_in_its_encoding_and_runs_in_it(read, declaration: str
         (f"```python\n{PROGRAM}```\n", "begins with ```"),
     ],
 )
-def test_what_is_no_program_is_named_as_what_it_is(read, content: bytes | str, named: str) -> None:
+def test_a_file_that_is_not_a_program_is_named_by_its_format(read, content: bytes | str, named: str) -> None:
     with pytest.raises(UnusableSubmission, match=rf"battery_service\.py .*{named}"):
         read(content)
 
 
 @pytest.mark.parametrize("content", ["", '<<<<<<< HEAD\n{"cells": [\n=======\n{\n>>>>>>> theirs\n'])
-def test_so_is_a_notebook_that_is_empty_or_half_merged(tmp_path: Path, content: str) -> None:
+def test_an_empty_or_half_merged_notebook_is_named_as_such(tmp_path: Path, content: str) -> None:
     (tmp_path / "work.ipynb").write_text(content)
     with pytest.raises(UnusableSubmission, match=r"work\.ipynb (is empty: save|has a merge conflict)"):
         read_submission(tmp_path / "work.ipynb", EXERCISE)
 
 
-def test_a_program_that_keeps_the_magic_as_a_comment_is_one(read) -> None:
+def test_a_program_with_the_magic_as_a_comment_is_accepted(read) -> None:
     assert read(f"# %%writefile battery_service.py\n{PROGRAM}").sources
 
 

@@ -1,4 +1,4 @@
-"""What a node has left in shared memory is seen, and what another one uses there is not."""
+"""Shared memory that a node leaves behind is detected; memory that another node uses is not."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a client is told about its failure: what the record knows of it, and one thing to do."""
+"""The failure of a client: the observation from the record, and one next step."""
 
 from itertools import count
 
@@ -92,11 +92,11 @@ def failure(check, *parts, **params):
         ([BOTH, ENABLED, asked(STATUS, 3.0, 3.1)], "It kept running after the last answer"),
     ],
 )
-def test_a_program_that_hangs_is_told_where(parts, where):
+def test_for_a_program_that_hangs_the_running_line_is_reported(parts, where):
     assert where in failure("prints_the_status", *parts, HUNG, status="Motors: ON").help
 
 
-def test_a_program_that_waits_for_a_dead_server_is_told_so():
+def test_a_program_that_waits_for_a_dead_server_gets_that_explanation():
     gone = [ev.ServiceWithdrawn(t=3.5, service=STATUS, server=f"server of {STATUS}")]
     told = failure("survives_a_dying_server", BOTH, ENABLED, asked(STATUS, 3.0), gone, HUNG)
     assert "It hung after request 1 (to get_status) was sent, and the server died" in told.help
@@ -162,10 +162,10 @@ def test_a_program_that_waits_for_a_dead_server_is_told_so():
         ),
     ],
 )
-def test_a_program_that_gives_up_too_early_is_told_what_it_missed(parts, observed, what_to_do):
-    told = failure("prints_the_status", *parts, status="Motors: ON")
-    assert told.observed.startswith(observed) or observed in told.observed
-    assert what_to_do in told.help
+def test_for_a_program_that_gives_up_too_early_the_missed_answer_is_reported(parts, observed, what_to_do):
+    failed = failure("prints_the_status", *parts, status="Motors: ON")
+    assert failed.observed.startswith(observed) or observed in failed.observed
+    assert what_to_do in failed.help
 
 
 @pytest.mark.parametrize(
@@ -180,8 +180,8 @@ def test_a_program_that_gives_up_too_early_is_told_what_it_missed(parts, observe
 )
 def test_what_is_wrong_with_the_printed_line(output, what_to_do):
     answered = asked(STATUS, 2.5, 2.6)
-    told = failure("prints_the_status", BOTH, ENABLED, answered, output, ended(3.2, 0), status="Motors: ON")
-    assert what_to_do in told.help
+    failed = failure("prints_the_status", BOTH, ENABLED, answered, output, ended(3.2, 0), status="Motors: ON")
+    assert what_to_do in failed.help
 
 
 def test_a_program_in_another_namespace_that_finds_nobody_has_a_slash_too_many():
@@ -211,10 +211,10 @@ def test_a_refusal_is_exit_status_1_like_every_other_failure(status):
     assert "2 to 4 are for action goals" in told.help
 
 
-def test_a_status_that_main_does_not_hand_over():
-    told = failure("gives_up_without_servers", said(3.0, "no server"), ended(3.2, 0))
-    assert told.observed == "exit status 0; the last line on stderr: no server"
-    assert "sys.exit(main())" in told.help
+def test_an_exit_status_that_main_does_not_return_is_explained():
+    failed = failure("gives_up_without_servers", said(3.0, "no server"), ended(3.2, 0))
+    assert failed.observed == "exit status 0; the last line on stderr: no server"
+    assert "sys.exit(main())" in failed.help
 
 
 @pytest.mark.parametrize(
@@ -227,21 +227,21 @@ def test_a_status_that_main_does_not_hand_over():
 def test_too_few_and_too_many_requests(requests, observed, what_to_do):
     sent = [asked(ENABLE, 2.0 * number) for number in range(1, requests + 1)]
     gave_up = 2.0 * requests + 2.0
-    told = failure("asks_once_more", BOTH, *sent, said(gave_up, "no answer"), ended(gave_up + 0.1, 1))
-    assert told.observed == observed
-    assert what_to_do in told.help
+    failed = failure("asks_once_more", BOTH, *sent, said(gave_up, "no answer"), ended(gave_up + 0.1, 1))
+    assert failed.observed == observed
+    assert what_to_do in failed.help
 
 
 @pytest.mark.parametrize(("second", "what_to_do"), [(2.5, "too early"), (6.5, "too late")])
 def test_a_pause_that_is_too_short_or_too_long(second, what_to_do):
-    told = failure("asks_once_more", BOTH, asked(ENABLE, 2.0), asked(ENABLE, second), ended(9.0, 1))
-    assert what_to_do in told.help
+    failed = failure("asks_once_more", BOTH, asked(ENABLE, 2.0), asked(ENABLE, second), ended(9.0, 1))
+    assert what_to_do in failed.help
 
 
 @pytest.mark.parametrize("first", [asked(STATUS, 3.0), asked(STATUS, 3.0, 5.4)])
 def test_a_second_request_that_gets_too_little_time(first):
     ends = ended(5.6, 1)
-    told = failure(
+    failed = failure(
         "is_not_confused_by_a_late_answer", BOTH, ENABLED, first, asked(STATUS, 5.0), said(5.5, "no"), ends
     )
     assert told.observed == "it gave up 0.5 s after the second request"
@@ -269,7 +269,7 @@ def test_the_data_of_the_second_request():
 
 
 def late(gave_up, exited):
-    """The servers come late, and the second get_status is sent at 8 s of the program's own time."""
+    """The servers appear late, and the second get_status is sent at 8 s of the program's own time."""
     servers = [*offered(ENABLE, 2.6), *offered(STATUS, 7.2)]
     enable = [*asked(ENABLE, 2.8), *asked(ENABLE, 4.8, 6.5)]
     status = [*asked(STATUS, 7.3), *asked(STATUS, 9.3)]
@@ -287,15 +287,15 @@ def test_a_deadline_of_10_s_is_kept_also_where_the_program_takes_its_time_to_end
     CHECKS["keeps_one_deadline"].run([run_of(late(gave_up, exited))])
 
 
-def test_limits_of_their_own_are_no_deadline():
-    with pytest.raises(Failure) as told:
+def test_separate_timeouts_do_not_make_a_deadline():
+    with pytest.raises(Failure) as failed:
         CHECKS["keeps_one_deadline"].run([run_of(late(12.2, 12.5))])
-    assert told.value.observed == "it gave up after 11.2 s; get_status was called after 6.3 s and 8.3 s"
-    assert "the remaining time as the limit" in told.value.help
+    assert failed.value.observed == "it gave up after 11.2 s; get_status was called after 6.3 s and 8.3 s"
+    assert "the remaining time as the limit" in failed.value.help
 
 
-def test_the_scenario_leaves_no_doubt_whether_there_is_a_deadline():
-    """Without one the waits take longer than what is allowed, whether the servers are found at once or in turn."""
+def test_the_scenario_distinguishes_programs_with_and_without_a_deadline():
+    """Without a deadline the waits exceed the limit, whether the servers are searched for in parallel or in turn."""
     scenario, _refused = CHECKS["keeps_one_deadline"].on
     appears, answers = scenario.draw(0)["appears"], scenario.draw(0)["answers"]
     assert appears < 2.0 > answers
@@ -330,7 +330,7 @@ def test_a_program_may_look_for_both_servers_at_once_or_in_turn(gave_up):
     ],
 )
 def test_a_search_that_is_too_short_or_too_long(parts, observed):
-    with pytest.raises(Failure) as told:
+    with pytest.raises(Failure) as failed:
         MODEL.looks_for_two_seconds.judge(run_of(parts))
-    assert told.value.observed == observed
-    assert "timeout_sec=2.0" in told.value.help
+    assert failed.value.observed == observed
+    assert "timeout_sec=2.0" in failed.value.help

@@ -1,4 +1,4 @@
-"""The line that says what is running now: on a terminal, in a notebook, and where neither is."""
+"""The line with the running scenario: on a terminal, in a notebook, and in plain output."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_in_a_notebook_the_line_is_written_over(capsys):
 
 
 def screen(output):
-    """What an output cell makes of carriage returns: each goes back to the start of its line, and later text wins."""
+    """The text that an output cell shows: after a carriage return, later text overwrites the line."""
     lines = []
     for text in output.split("\n"):
         shown = ""

@@ -1,4 +1,4 @@
-"""The arena imports an exercise's scenarios from one file, whatever Python they are written in."""
+"""The arena imports an exercise's scenarios from one file, whatever Python code the file contains."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A self-check, in the notebook and on the command line, is kept for the student's page of progress."""
+"""A self-check, in the notebook and on the command line, is stored for the student's progress page."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def test_it_is_kept_when_every_check_was_judged(
 ) -> None:
     kept: list[tuple] = []
     monkeypatch.setattr(module, "check_with_progress", lambda *arguments, **options: grade)
-    monkeypatch.setattr(module, "keep_check", lambda *entry: kept.append(entry))
+    monkeypatch.setattr(module, "store_check", lambda *entry: kept.append(entry))
     assert module.self_check("battery_service").grade is grade
     assert kept == expected
 
@@ -38,7 +38,7 @@ def test_the_command_keeps_it_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(
         module, "check_with_progress", lambda *arguments, **options: graded("passed", "failed")
     )
-    monkeypatch.setattr(module, "keep_check", lambda *entry: kept.append(entry))
+    monkeypatch.setattr(module, "store_check", lambda *entry: kept.append(entry))
     with pytest.raises(typer.Exit) as ended:
         check("battery_service", tmp_path / "missing.py", json_file=None, jobs=1, course=None)
     assert ended.value.exit_code == 1

@@ -1,4 +1,4 @@
-"""What is told to a server that stands the robot up by the clock, too soon, or under somebody's weight."""
+"""The failures of a server that stands the robot up by the clock, too soon, or against a force."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ABORTED, SUCCEEDED = GoalStatus.STATUS_ABORTED, GoalStatus.STATUS_SUCCEEDED
 
 
 def risen(at: float) -> Callable[[float], float]:
-    """The height of a pelvis that is up at a time (s) and took a second for that."""
+    """The height over time of a pelvis that has risen at a time (s), after a motion of one second."""
     return lambda t: 0.45 + 0.15 * max(0.0, min(1.0, t - at + 1.0))
 
 
@@ -54,7 +54,7 @@ def stood_up(
 
 
 def leaned_on(begin: float = LEAN, end: float = LET_GO) -> list[Any]:
-    """Somebody leans on the robot between two moments (s)."""
+    """A force acts on the robot between two times (s)."""
     command = {"do": "push", "impulse": [0.0, 70.0, 0.0], "duration": end - begin}
     loads = [(0.02 * k, UNEVEN if begin < 0.02 * k < end else EVEN) for k in range(500)]
     feet = [ev.FeetTruth(t=t, left=left, right=right) for t, (left, right) in loads]
@@ -97,18 +97,18 @@ def test_a_success_on_the_way_has_not_settled() -> None:
         ),
     ],
 )
-def test_phases_by_the_clock_are_found(phases: list[tuple[float, str, float]], word: str) -> None:
+def test_phases_that_follow_the_clock_are_detected(phases: list[tuple[float, str, float]], word: str) -> None:
     failure = failure_of(MODEL.names_its_phase.judge, stood_up(risen(3.2), feedback=phases))
     assert word in failure.observed
 
 
 @pytest.mark.parametrize("percent", [75.0, 0.4])
-def test_a_percentage_that_is_not_the_share_of_the_height_is_found(percent: float) -> None:
+def test_a_percentage_that_is_not_the_share_of_the_height_is_detected(percent: float) -> None:
     run = stood_up(risen(3.2), feedback=[(2.1, "shifting", percent), (4.0, "settling", percent)])
     assert "by that share of its way" in failure_of(MODEL.measures_percent.judge, run).expected
 
 
-def test_the_percentage_may_fall_to_shifting_alone() -> None:
+def test_the_percentage_may_decrease_only_in_phase_shifting() -> None:
     back = [(2.7, "rising", 35.0), (3.0, "shifting", 20.0)]
     assert MODEL.never_loses_percent.judge(stood_up(risen(4.0), feedback=back))
     bobs = stood_up(risen(4.0), feedback=[back[0], (3.0, "rising", 20.0)])
@@ -126,7 +126,7 @@ def test_a_rise_under_somebodys_weight_is_shown_the_loads() -> None:
     assert "force.z" in failure.help
 
 
-def test_a_robot_on_which_nobody_leaned_proves_nothing() -> None:
+def test_without_a_force_on_the_robot_the_check_does_not_pass() -> None:
     even = [ev.FeetTruth(t=0.02 * k, left=186.0, right=186.0) for k in range(500)]
     assert not MODEL.stays_down_while_uneven.judge(stood_up(risen(6.4), *even, end=8.0))
     assert not MODEL.stays_down_while_uneven.judge(stood_up(risen(6.4), end=8.0))
@@ -147,7 +147,7 @@ def test_a_rise_that_goes_on_when_it_is_leaned_on_is_found_and_so_is_its_phase()
     assert "to stop" in failure_of(MODEL.shifts_again.judge, goes_on).expected
 
 
-def test_a_goal_for_a_standing_robot_wants_the_code_and_a_sentence() -> None:
+def test_a_goal_for_a_standing_robot_needs_the_code_and_a_message() -> None:
     def ended(**result: Any) -> Transcript:
         return stood_up(lambda t: 0.60, end=2.4, **result)
 
@@ -171,7 +171,7 @@ def test_a_success_after_the_time_limit_comes_too_late() -> None:
     assert failure.help.startswith("12 s after acceptance")
 
 
-def test_silence_on_the_floor_is_no_rejection() -> None:
+def test_no_answer_for_a_fallen_robot_is_not_a_rejection() -> None:
     lying = [robot(0.02 * k, mode=RobotState.FALLEN) for k in range(500)]
     asked = ev.GoalSent(t=ACCEPTED, goal="lying", action="stand_up", request=StandUp.Goal())
     failure = failure_of(MODEL.refuses_the_floor.judge, run_of(*lying, asked, until=10.0))
@@ -228,7 +228,7 @@ def test_an_abort_is_explained_by_its_code_and_its_time(
     assert repr(result["error_msg"]) in failure.observed
 
 
-def test_an_execute_that_keeps_odom_from_being_served_is_found() -> None:
+def test_an_execute_callback_that_blocks_odom_is_detected() -> None:
     told = [(2.2 + 0.2 * k, "rising", 0.0) for k in range(12)]
     run = stood_up(risen(3.2), end=14.1, status=ABORTED, error_msg="too long", feedback=told)
     assert "percent_complete stayed 0 in all 12" in failure_of(MODEL.succeeds.judge, run).help

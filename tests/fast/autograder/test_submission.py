@@ -40,7 +40,7 @@ def test_several_files_are_read_from_a_notebook_or_a_folder(tmp_path):
     assert read_submission(tmp_path, "interfaces").sources == written
 
 
-def test_of_several_files_one_may_be_missing_but_not_all(tmp_path):
+def test_one_of_several_files_may_be_missing_but_not_all(tmp_path):
     (tmp_path / "GetBatteryStatus.srv").write_text("---\n")
     assert list(read_submission(tmp_path, "interfaces").sources) == ["GetBatteryStatus.srv"]
     (tmp_path / "GetBatteryStatus.srv").unlink()
@@ -48,7 +48,7 @@ def test_of_several_files_one_may_be_missing_but_not_all(tmp_path):
         read_submission(tmp_path, "interfaces")
 
 
-def test_one_of_several_files_alone_says_what_to_give(tmp_path):
+def test_for_one_of_several_files_alone_the_error_names_the_expected_argument(tmp_path):
     file = tmp_path / "GetBatteryStatus.srv"
     file.write_text("---\n")
     with pytest.raises(UnusableSubmission, match="give the folder they lie in"):

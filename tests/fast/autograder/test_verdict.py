@@ -1,4 +1,4 @@
-"""A verdict is of readable length, whatever it quotes."""
+"""A verdict has a readable length, whatever it quotes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ def verdict(**texts: str) -> CheckVerdict:
 
 
 @pytest.mark.parametrize("name", sorted(LONGEST))
-def test_a_long_text_is_cut_and_says_how_long_it_was(name: str) -> None:
+def test_a_long_text_is_cut_and_ends_with_its_length(name: str) -> None:
     text = getattr(verdict(**{name: "x" * 1_234_567}), name)
     assert text == "x" * LONGEST[name] + "…[cut: 1,234,567 characters]"
     assert len(text) <= LONGEST[name] + LENGTH_NOTE

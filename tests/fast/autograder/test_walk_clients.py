@@ -1,4 +1,4 @@
-"""What a client of walk_to is told about its failure: what the record knows of it, and one thing to do."""
+"""The failure of a client of walk_to: the observation from the record, and one next step."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ FOLLOWED = [goal(), answered(), *on_the_way(), *printed()]
 
 
 def run_of(*events: Any) -> Transcript:
-    """The record of a server that does what it happens to do in these events, and of a person who does."""
+    """The record of a run with these events of a server and a user."""
     start = [ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0), *OFFERED]
     replies = [event.accepted for event in events if isinstance(event, ev.GoalReplySent)]
     server = {"accepted": next(iter(replies), None), "ends_after": None}
@@ -123,7 +123,7 @@ def test_a_walk_that_is_followed_to_its_end_passes() -> None:
         CANCEL[check].run([run])
 
 
-def test_a_client_that_finds_nobody_though_somebody_is_there_hears_of_names() -> None:
+def test_a_client_that_does_not_find_an_existing_server_is_advised_about_names() -> None:
     run = run_of(*said("nobody offers walk_to", t=5.4, stream="stderr"), ev.NodeExited(t=5.5, returncode=1))
     failure = failure_of(WALK["sends_the_goal"], run)
     assert "with status 1: nobody offers walk_to" in failure.observed
@@ -143,13 +143,13 @@ def test_a_client_that_finds_nobody_though_somebody_is_there_hears_of_names() ->
         ("walk_client.py: error: the following arguments are required: yaw", "nargs='?' and a default"),
     ],
 )
-def test_a_client_that_ends_early_is_told_what_its_last_words_mean(line: str, next_step: str) -> None:
+def test_for_a_client_that_ends_early_its_last_line_is_explained(line: str, next_step: str) -> None:
     traceback = ["Traceback (most recent call last):"] if line.startswith("AttributeError") else []
     run = run_of(*said(*traceback, line, t=0.4, stream="stderr"), ev.NodeExited(t=0.5, returncode=1))
     assert next_step in failure_of(WALK["sends_the_goal"], run).help
 
 
-def test_a_client_that_gives_up_on_a_lively_goal_is_told_when_feedback_came_last() -> None:
+def test_for_a_client_that_abandons_an_active_goal_the_last_feedback_is_reported() -> None:
     run = run_of(goal(), answered(), *on_the_way(), *cancelled(replied()), ended(1, t=3.4))
     failure = failure_of(WALK["says_how_it_succeeded"], run)
     assert "a goal may take long, and the last message came at 2.8 s" in failure.help
@@ -177,7 +177,7 @@ def test_a_client_that_gives_up_on_a_lively_goal_is_told_when_feedback_came_last
         ),
     ],
 )
-def test_a_client_that_hangs_is_told_how_far_its_goal_had_come(events: list[Any], where: str) -> None:
+def test_for_a_client_that_hangs_the_state_of_its_goal_is_reported(events: list[Any], where: str) -> None:
     with pytest.raises(Failure) as caught:
         require_end(run_of(*events, *HUNG), 10.0)
     assert where in caught.value.help
@@ -189,13 +189,13 @@ def test_a_second_line_for_a_feedback_was_not_sent() -> None:
     assert "one line for each feedback" in failure.help
 
 
-def test_a_table_of_numbers_is_no_line_for_each_feedback() -> None:
+def test_a_table_of_numbers_does_not_count_as_a_line_for_each_feedback() -> None:
     table = said(" ".join(f"{number / 100:.2f}" for number in range(300)), t=2.5)
     events = [goal(), answered(), *on_the_way(), *table, *SUCCEEDED]
     assert failure_of(WALK["prints_the_feedback"], run_of(*events)).expected.endswith("a line with 1.00")
 
 
-def test_a_client_that_gives_up_at_once_without_a_server_is_told_to_wait() -> None:
+def test_a_client_that_does_not_wait_for_a_server_is_advised_to_wait() -> None:
     start = [ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0)]
     end = [*said("no server", t=1.9, stream="stderr"), ended(1, t=2.0), ev.ScenarioEnded(t=END)]
     nobody = {**ARGUMENTS, "server": None, "steps": []}
@@ -229,11 +229,11 @@ REFUSED = [*FOLLOWED, TYPED, *cancelled(replied())]
 @pytest.mark.parametrize(
     "words", ["cancel refused", "the server rejected the cancel", "will not cancel", "Cancel was declined"]
 )
-def test_a_refusal_may_be_told_in_any_words(words: str) -> None:
+def test_a_rejection_may_be_printed_in_any_words(words: str) -> None:
     CANCEL["reports_a_refusal"].run([run_of(*REFUSED, *said(words, t=3.3), *SUCCEEDED)])
 
 
-def test_a_refusal_that_is_taken_for_a_yes_points_to_the_list() -> None:
+def test_a_rejected_cancel_taken_for_accepted_points_to_goals_canceling() -> None:
     failure = failure_of(
         CANCEL["reports_a_refusal"], run_of(*REFUSED, *said("it is being cancelled", t=3.3), *SUCCEEDED)
     )
@@ -273,7 +273,7 @@ ARRIVED = [*PRESSED, *finished(GoalStatus.STATUS_SUCCEEDED)]
 @pytest.mark.parametrize(
     ("words", "at"), [("CANCELED: Ctrl-C", 4.1), ("the goal ended with status 5", 4.1), ("canceled", 3.0)]
 )
-def test_the_last_line_after_ctrl_c_says_what_became_of_the_goal(words: str, at: float) -> None:
+def test_the_last_line_after_ctrl_c_must_name_the_goals_outcome(words: str, at: float) -> None:
     for checks in (WALK, CANCEL):
         checks["ctrl_c_cancels_the_goal"].run([run_of(*STOPPED, *said(words, t=at), ended(4))])
 
@@ -282,12 +282,12 @@ ON_AND_ON = [*said("canceling it", t=3.0), *said("0.40 m to go", t=3.5)]
 
 
 @pytest.mark.parametrize("words", [[], ON_AND_ON, said("CANCELED", stream="stderr")])
-def test_lines_on_the_way_are_no_line_about_the_end(words: list[Any]) -> None:
+def test_lines_during_the_goal_do_not_count_as_the_outcome(words: list[Any]) -> None:
     failure = failure_of(WALK["ctrl_c_cancels_the_goal"], run_of(*STOPPED, *words, ended(4)))
     assert failure.expected.startswith("a line on stdout at the end")
 
 
-def test_ctrl_c_ends_it_with_4_whatever_becomes_of_the_goal() -> None:
+def test_after_ctrl_c_the_status_is_4_whatever_the_goals_outcome() -> None:
     check = WALK["ctrl_c_ends_it_in_any_case"]
     never = run_of(*PRESSED, *said("Ctrl-C: it goes on", t=7.9), ended(4, t=8.0))
     check.run([never, run_of(*ARRIVED, *said("Ctrl-C, but it SUCCEEDED"), ended(4))])
@@ -299,7 +299,7 @@ def test_ctrl_c_ends_it_with_4_whatever_becomes_of_the_goal() -> None:
     assert failure.observed == "it ended at 12.0 s"
 
 
-def test_a_reason_that_is_told_twice_is_counted() -> None:
+def test_a_reason_that_is_printed_twice_is_counted() -> None:
     abort = [*FOLLOWED, *finished(GoalStatus.STATUS_ABORTED), *said("ABORTED: it fell", stream="stderr")]
     WALK["tells_an_abort"].run([run_of(*abort, ended(3))])
     failure = failure_of(WALK["tells_an_abort"], run_of(*abort, *said("it fell"), ended(3)))
@@ -337,7 +337,7 @@ SOUND = {
 
 
 @pytest.mark.parametrize("check", SOUND)
-def test_what_a_sound_cancel_client_does_passes(check: str) -> None:
+def test_a_correct_cancel_client_passes(check: str) -> None:
     CANCEL[check].run([run_of(*SOUND[check])])
 
 
@@ -350,7 +350,7 @@ def test_what_a_sound_cancel_client_does_passes(check: str) -> None:
         if kind is ev.ActionOffered or any(isinstance(event, kind) for event in events)
     ],
 )
-def test_what_is_not_in_the_record_passes_no_cancel_check(check: str, missing: type) -> None:
+def test_without_the_recorded_events_no_cancel_check_passes(check: str, missing: type) -> None:
     whole = run_of(*SOUND[check])
     less = [event for event in whole.events if not isinstance(event, missing)]
     with pytest.raises((Failure, CannotBeJudged)):
@@ -387,7 +387,7 @@ def test_what_is_not_in_the_record_passes_no_cancel_check(check: str, missing: t
         ),
     ],
 )
-def test_what_a_faulty_cancel_client_does_fails(check: str, instead: list[Any]) -> None:
+def test_a_faulty_cancel_client_fails(check: str, instead: list[Any]) -> None:
     failure = failure_of(CANCEL[check], run_of(*instead))
     assert failure.observed
     assert failure.help

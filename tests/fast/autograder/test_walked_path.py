@@ -1,4 +1,4 @@
-"""The path that a robot really walked, without the sway of its pelvis."""
+"""The path that a robot has walked, without the sway of its pelvis."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ def walk(x: Callable[[float], float], duration: float) -> RobotRecord:
     return RobotRecord.from_events("walk", {}, [at(0.02 * k) for k in range(int(duration / 0.02) + 1)])
 
 
-def test_sway_is_no_way() -> None:
+def test_sway_does_not_count_as_distance() -> None:
     run = walk(lambda t: 0.3 * t, 8.0)
     raw = length([(robot.x, robot.y) for robot in run.robot_between(1.0, 7.0)])
     assert raw > 1.06 * 1.8
     assert length_walked(run, 1.0, 7.0) == pytest.approx(1.8, rel=0.02)
 
 
-def test_a_robot_that_sways_on_the_spot_walks_nothing() -> None:
+def test_a_robot_that_sways_in_place_walks_no_distance() -> None:
     run = walk(lambda t: 0.0, 8.0)
     assert length_walked(run, 1.0, 7.0) < 0.05
     assert walking_speed(run, 4.0) < 0.02

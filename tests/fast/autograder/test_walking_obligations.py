@@ -1,4 +1,4 @@
-"""What must hold of every goal that walks the robot: judged by when each was active, and by what the robot did then."""
+"""The obligations of every walking goal, judged by its active time and the robot's motion in that time."""
 
 from __future__ import annotations
 
@@ -119,18 +119,18 @@ def test_a_result_holds_what_was_measured_for_its_own_goal():
         assert reporting.reports_where_it_ended(run.goal(each)) == "SUCCEEDED"
 
 
-def test_a_final_pose_that_repeats_the_goal_is_told_so():
+def test_a_final_pose_that_repeats_the_goal_is_named():
     with pytest.raises(Failure, match="m are forgiven") as failed:
         reporting.reports_where_it_ended(two_goals(final_pose=1.5).goal("second"))
     assert "the pose that the goal asked for" in failed.value.help
 
 
-def test_steps_since_the_reset_are_told_so():
+def test_steps_counted_since_the_reset_are_named():
     with pytest.raises(Failure, match="since the robot was reset"):
         reporting.reports_where_it_ended(two_goals(steps=15).goal("second"))
 
 
-def test_a_goal_is_rejected_for_what_holds_when_it_comes():
+def test_a_goal_is_rejected_for_the_state_at_its_arrival():
     run = run_of(
         *goal("walk", 1.0, 3.0),
         *goal("second", 3.0, 0.5, accepted=False),
@@ -145,7 +145,7 @@ def test_a_goal_is_rejected_for_what_holds_when_it_comes():
     assert ends.goes_on(run.goal("walk")) == "another was rejected"
 
 
-def test_a_goal_that_nothing_speaks_against_has_to_be_accepted():
+def test_a_goal_without_a_reason_for_rejection_has_to_be_accepted():
     run = run_of(
         *goal("walk", 1.0, 1.0), ended("walk", 8.0, 0.97, 10), *goal("next", 10.0, 1.5, accepted=False)
     )
@@ -153,7 +153,7 @@ def test_a_goal_that_nothing_speaks_against_has_to_be_accepted():
         ACCEPTS(run.goal("next"))
 
 
-def test_a_goal_that_comes_as_another_ends_may_get_either_answer():
+def test_a_goal_that_arrives_as_another_ends_may_get_either_answer():
     run = run_of(
         *goal("walk", 1.0, 1.0), ended("walk", 8.0, 0.97, 10), *goal("next", 8.1, 1.5, accepted=False)
     )
@@ -161,7 +161,7 @@ def test_a_goal_that_comes_as_another_ends_may_get_either_answer():
     assert rejects(1, objections.while_busy).require(run.goal("next")) is None
 
 
-def test_a_goal_that_gives_way_was_active():
+def test_a_preempted_goal_was_active():
     gone = ended("walk", 3.15, 0.4, 4, status=GoalStatus.ABORTED)
     run = run_of(*goal("walk", 1.0, 2.0), *goal("second", 3.0, 0.5), gone, motions=[a_walk(1.2, 0.0, 0.4)])
     with pytest.raises(Failure, match="it was accepted"):
@@ -169,7 +169,7 @@ def test_a_goal_that_gives_way_was_active():
 
 
 @pytest.mark.parametrize(("answers", "taken"), [((True, True), 2), ((False, False), 0)])
-def test_of_two_goals_in_the_same_moment_one_is_accepted(answers, taken):
+def test_one_of_two_simultaneous_goals_is_accepted(answers, taken):
     one, other = goal("one", 1.0, 1.0, accepted=answers[0]), goal("other", 1.01, 1.0, accepted=answers[1])
     with pytest.raises(Failure, match=f"{taken} of 2 were accepted"):
         one_of_several(run_of(*one, *other).goal("one"))
@@ -215,7 +215,7 @@ def test_a_cancel_that_is_refused_changes_nothing():
         ends.goes_on(run.goal("walk"))
 
 
-def test_the_newest_goal_has_the_robot():
+def test_the_newest_goal_controls_the_robot():
     events = (*goal("old", 1.0, 2.0), *goal("new", 3.0, 1.0))
     gone = ended("old", 3.3, 0.4, 4, GoalStatus.ABORTED, WalkTo.Result.PREEMPTED, "a newer goal")
     run = run_of(*events, gone, ended("new", 9.0, 1.0, 6), motions=[a_walk(1.2, 0.0, 1.0)])
@@ -229,7 +229,7 @@ def test_the_newest_goal_has_the_robot():
         )
 
 
-def test_a_rejected_goal_gives_way_to_nobody():
+def test_a_rejected_goal_preempts_no_other():
     run = run_of(
         *goal("in map", 1.0, 1.0, frame="map", accepted=False),
         *(*goal("walk", 3.0, 1.0), ended("walk", 9.0, 0.97, 10)),
@@ -239,7 +239,7 @@ def test_a_rejected_goal_gives_way_to_nobody():
     assert ends.succeeds(run.goal("walk"))
 
 
-def test_a_goal_that_gives_way_to_a_rejected_one_is_told_so():
+def test_a_goal_preempted_by_a_rejected_one_is_named():
     run = run_of(
         *(*goal("walk", 1.0, 2.0), *goal("in map", 3.0, 0.5, frame="map", accepted=False)),
         ended("walk", 3.3, 0.4, 4, GoalStatus.ABORTED, WalkTo.Result.PREEMPTED, "a newer goal"),
@@ -251,7 +251,7 @@ def test_a_goal_that_gives_way_to_a_rejected_one_is_told_so():
         ends.goes_on(run.goal("walk"))
 
 
-def test_a_fall_is_told_and_nothing_else_is_asked_of_the_goal():
+def test_after_a_fall_only_the_error_code_is_checked():
     fell = ended("walk", 4.2, 0.6, 6, GoalStatus.ABORTED, WalkTo.Result.FELL, "it fell")
     run = run_of(*goal("walk", 1.0, 2.0), fell, motions=[a_walk(1.2, 0.0, 2.0)], down=4.0)
     assert ends.tells_a_fall(run.goal("walk")) == "pushed"
@@ -269,7 +269,7 @@ def test_what_a_goal_becomes_after_ctrl_c_is_not_judged():
 
 
 @pytest.mark.parametrize("estimate", [lambda left: 0, lambda left: 3, lambda left: int(-left)])
-def test_an_estimate_that_is_none_is_told_so(estimate):
+def test_an_invalid_estimate_is_named(estimate):
     times = [1.3 + 0.2 * k for k in range(25)]
     lefts = [max(0.03, 1.0 - 0.2 * (t - 1.2)) for t in times]
     feedback = [

@@ -1,4 +1,4 @@
-"""What a batch shows while it runs, on a terminal and elsewhere; and how long it says the rest will take."""
+"""The progress of a batch, on a terminal and elsewhere, and its estimate of the remaining time."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ VERDICT = CheckVerdict("id", "title", "passed", 1, 1)
 
 
 class Clock:
-    """Time that passes when the test says so."""
+    """A clock that the test advances."""
 
     now = 0.0
 
@@ -47,7 +47,7 @@ def clock() -> Clock:
     return Clock()
 
 
-def test_time_left_follows_what_was_measured_and_not_what_was_known(clock):
+def test_remaining_time_follows_measured_durations_not_earlier_estimates(clock):
     pace = Pace(40, clock)
     assert pace.seconds_left() is None
     pace.add(20)
@@ -70,11 +70,11 @@ def test_time_left_follows_what_was_measured_and_not_what_was_known(clock):
         (8000, "about 2.2 h left"),
     ],
 )
-def test_an_estimate_is_no_more_precise_than_it_can_be(seconds, words):
+def test_an_estimate_is_rounded_to_its_precision(seconds, words):
     assert in_words(seconds) == words
 
 
-def test_without_a_terminal_there_are_lines_now_and_then_with_what_runs(clock):
+def test_without_a_terminal_progress_lines_are_printed_at_intervals(clock):
     console = Console(file=io.StringIO(), width=200)
     with BatchProgress(console, clock=clock) as progress:
         progress.expect(checks=3, submissions=3)
@@ -92,7 +92,7 @@ def test_without_a_terminal_there_are_lines_now_and_then_with_what_runs(clock):
     ]
 
 
-def test_on_a_terminal_all_that_runs_is_shown_with_its_time(clock):
+def test_on_a_terminal_all_running_submissions_are_shown_with_their_time(clock):
     console = Console(file=io.StringIO(), width=200, force_terminal=True, color_system=None)
     with BatchProgress(console, clock=clock, elsewhere=4) as progress:
         progress.expect(checks=20, submissions=10)
@@ -123,7 +123,7 @@ def test_a_submission_without_verdicts_is_counted_as_done(clock):
     assert progress._pace.done == 2
 
 
-def test_what_is_put_off_is_told_and_its_verdicts_are_expected_once_more(clock):
+def test_a_postponed_submission_is_reported_and_its_verdicts_are_expected_again(clock):
     console = Console(file=io.StringIO(), width=200)
     progress = BatchProgress(console, clock=clock)
     progress.expect(checks=1, submissions=1)

@@ -1,4 +1,4 @@
-"""batch.json says what was graded when, with what and at what cost, and can be read back."""
+"""batch.json holds what was graded when, with which checks and at what cost, and can be read back."""
 
 from __future__ import annotations
 
@@ -80,12 +80,12 @@ def test_points_that_a_person_gives_are_in_it():
 @pytest.mark.parametrize(
     "content", ["", "{}", "[1]", '{"state": "ended", "submissions": [{"student": "anna"}]}']
 )
-def test_what_is_no_record_is_none(tmp_path, content):
+def test_a_file_that_is_not_a_record_is_read_as_none(tmp_path, content):
     (tmp_path / BATCH).write_text(content)
     assert read_batch(tmp_path) is None
 
 
-def test_shards_make_one_record_and_none_if_one_is_missing(tmp_path):
+def test_shards_are_merged_into_one_record_unless_one_is_missing(tmp_path):
     folders = [tmp_path / "1", tmp_path / "2"]
     for folder, student in zip(folders, ("anna", "bert"), strict=True):
         write_batch(

@@ -1,4 +1,4 @@
-"""An interrupted batch goes on where it stopped, and never with a grade for something else."""
+"""A resumed batch reuses cached grades, but never for another submission or other checks."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def test_another_source_seed_isolation_or_set_of_checks_is_graded_anew(cache, tm
     assert cache.get(ANNA, load_exercise("battery_service", hidden=False), 0) is None
 
 
-def test_what_was_not_graded_is_not_cached(tmp_path):
+def test_an_ungraded_submission_is_not_cached(tmp_path):
     cache = GradeCache(tmp_path, ISOLATED)
     cache.put(ANNA, EXERCISE, 0, CachedGrade(passed(ANNA, status="error"), TOOK))
     assert cache.get(ANNA, EXERCISE, 0) is None
@@ -73,7 +73,7 @@ def test_what_was_not_graded_is_not_cached(tmp_path):
         ("autograder/classroom/hidden_checks/standard_hidden.py", True),
     ],
 )
-def test_a_change_of_what_judges_makes_old_grades_void(tmp_path, monkeypatch, changed, matters):
+def test_a_change_of_the_checks_invalidates_cached_grades(tmp_path, monkeypatch, changed, matters):
     for name in ("autograder/engine/grading.py", changed):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("before")

@@ -89,7 +89,7 @@ def test_names_that_would_match_others_or_break_a_page_are_refused_by_name(tmp_p
     assert repr(student) in collection.refused[0]
 
 
-def test_what_is_no_submission_is_left_aside_with_the_reason(tmp_path):
+def test_files_that_are_not_submissions_are_ignored_with_a_reason(tmp_path):
     put(tmp_path / "anna/battery_service.py")
     put(tmp_path / "bert/holiday.py")
     (tmp_path / "cleo").mkdir()
@@ -128,7 +128,7 @@ def test_a_pipe_does_not_hold_up_the_batch(tmp_path):
     ("text", "taken"),
     [("2026-03-01 12:00:00 UTC\n", "2026-03-01 12:00:00 UTC"), ("tomorrow", ""), ("", ""), ("x" * 5000, "")],
 )
-def test_a_time_of_handing_in_is_taken_only_when_nbgrader_can_read_it(tmp_path, text, taken):
+def test_a_submission_time_is_used_only_if_nbgrader_can_read_it(tmp_path, text, taken):
     put(tmp_path / "anna/battery_service/battery_service.py")
     put(tmp_path / "anna/battery_service/timestamp.txt", text)
     assert only(tmp_path).timestamp == taken
@@ -137,13 +137,13 @@ def test_a_time_of_handing_in_is_taken_only_when_nbgrader_can_read_it(tmp_path, 
 @pytest.mark.parametrize(
     ("text", "taken"), [("0f" * 64, "0f" * 64), ("0f" * 65, ""), ("../" * 20, ""), ("é" * 64, "")]
 )
-def test_a_secret_for_feedback_is_taken_only_when_it_is_nbgraders(tmp_path, text, taken):
+def test_a_feedback_secret_is_used_only_if_it_has_nbgraders_format(tmp_path, text, taken):
     put(tmp_path / "anna/battery_service/battery_service.py")
     put(tmp_path / "anna/battery_service/submission_secret.txt", text)
     assert only(tmp_path).secret == taken
 
 
-def test_a_folder_with_nothing_to_grade_says_what_is_expected(tmp_path):
+def test_the_error_for_a_folder_with_nothing_to_grade_names_the_expected_layout(tmp_path):
     with pytest.raises(NoSubmissions, match="<student>/<exercise>"):
         collect(tmp_path)
     with pytest.raises(NoSubmissions, match="is not a folder"):

@@ -1,4 +1,4 @@
-"""Work that a killed worker had, and what could not be graded, is done again once, and every job has one outcome."""
+"""Jobs of a killed worker and ungraded jobs are repeated once, and every job has one outcome."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def passes(job: GradingJob) -> Grade:
 
 
 def grade_or_die(folder: Path, job: GradingJob) -> Outcome:
-    """The first try of `once` and every try of `always` kill the worker's process."""
+    """Grade a job; the first try of `once` and every try of `always` kill the worker's process."""
     with (folder / job.student).open("a") as tries:
         tries.write("x")
     if job.student == "always" or (job.student == "once" and (folder / job.student).read_text() == "x"):
@@ -58,7 +58,7 @@ def test_a_job_that_kills_its_worker_is_not_graded_and_takes_no_other_with_it(tm
     assert [student for student, _, _ in found] == students
     assert [status for _, status, _ in found] == ["not graded", *["graded"] * 4]
     assert "lost twice" in found[0][2]
-    assert (tmp_path / "always").read_text() in ("x", "xx")  # a pool may break before it has begun with a job
+    assert (tmp_path / "always").read_text() in ("x", "xx")  # a pool may break before it has started the job
     assert (tmp_path / "once").read_text() == "xx"
 
 
@@ -70,7 +70,7 @@ def test_an_executor_that_cannot_be_opened_is_an_error_and_no_grade() -> None:
         outcomes(WorkerPool(Workers(unavailable, max_unfinished=1), partial(grade_or_die, Path())), ["anna"])
 
 
-def test_what_could_not_be_graded_is_done_again_alone_at_the_end() -> None:
+def test_an_ungraded_job_is_repeated_alone_at_the_end() -> None:
     running, beside, tries = set[str](), dict[str, int](), Counter[str]()
 
     def busy_at_first(job: GradingJob) -> Outcome:
@@ -91,7 +91,7 @@ def test_what_could_not_be_graded_is_done_again_alone_at_the_end() -> None:
     assert beside["always"] == beside["at first"] == 0
 
 
-def test_what_was_not_graded_for_a_reason_that_stays_is_not_done_again() -> None:
+def test_a_job_that_is_ungraded_for_a_permanent_reason_is_not_repeated() -> None:
     tries: list[str] = []
 
     def without_isolation(job: GradingJob) -> Outcome:

@@ -1,4 +1,4 @@
-"""Jobs on a Dask cluster of two processes, of which one is killed in the middle."""
+"""Jobs on a Dask cluster of two processes, one of which is killed during a job."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def job(student: str, trusted: bool = False) -> GradingJob:
 
 
 def grade_once_the_killed_is_gone(folder: Path, job: GradingJob) -> Outcome:
-    """Say which process works, and hold the first job of each until one of them was killed."""
+    """Report the process of a job, and block the first job of each process until one process was killed."""
     (folder / "workers" / str(os.getpid())).touch()
     while not (folder / "killed").exists():
         pass
@@ -34,7 +34,7 @@ def grade_once_the_killed_is_gone(folder: Path, job: GradingJob) -> Outcome:
     return Outcome(Grade(job.exercise, job.student, "untrusted", verdicts), "untrusted")
 
 
-def test_a_killed_worker_costs_no_grade_and_doubles_none(tmp_path, monkeypatch):
+def test_with_a_killed_worker_no_grade_is_lost_or_duplicated(tmp_path, monkeypatch):
     monkeypatch.setenv("COURSE_ISOLATION", "none")
     (tmp_path / "workers").mkdir()
     with (
@@ -57,7 +57,7 @@ def test_a_killed_worker_costs_no_grade_and_doubles_none(tmp_path, monkeypatch):
     assert {outcome.grade.status for _, outcome in found} == {"graded"}
 
 
-def test_a_worker_without_isolation_grades_no_hidden_checks_and_says_so(monkeypatch):
+def test_a_worker_without_isolation_skips_hidden_checks_and_reports_it(monkeypatch):
     monkeypatch.setenv("COURSE_ISOLATION", "none")
     outcome = carry_out(job("anna", trusted=True))
     assert (outcome.grade.status, outcome.isolation) == ("not graded", "untrusted")

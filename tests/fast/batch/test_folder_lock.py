@@ -1,4 +1,4 @@
-"""Two graders do not write into one folder."""
+"""Two graders cannot write to the same folder."""
 
 from __future__ import annotations
 

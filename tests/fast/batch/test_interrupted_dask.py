@@ -1,4 +1,4 @@
-"""Ctrl-C in a batch on a Dask cluster: the command ends, the cluster stays, and nothing of the batch waits there."""
+"""Ctrl-C in a batch on a Dask cluster: the command ends, the cluster runs on, and no job of the batch stays queued."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 
 from distributed import Client, LocalCluster
 
-# A worker whose jobs begin, say so, and last until the test has seen what it wants.
+# A worker whose jobs report their start and run until the test lets them end.
 PRELOADED = """
 import time
 from pathlib import Path
@@ -30,9 +30,7 @@ job.grade = held
 STUDENTS = [f"student{number}" for number in range(6)]
 
 
-def test_ctrl_c_takes_back_what_has_not_begun_and_leaves_the_cluster_as_it_is(
-    tmp_path: Path, monkeypatch
-) -> None:
+def test_ctrl_c_removes_queued_jobs_and_leaves_the_cluster_running(tmp_path: Path, monkeypatch) -> None:
     monkeypatch.setenv("COURSE_ISOLATION", "none")
     for student in STUDENTS:
         (tmp_path / "submitted" / student).mkdir(parents=True)
@@ -56,7 +54,7 @@ def test_ctrl_c_takes_back_what_has_not_begun_and_leaves_the_cluster_as_it_is(
             while not list(tmp_path.glob("*.begun")):
                 assert grader.poll() is None, grader.communicate()[0]
             grader.send_signal(signal.SIGINT)
-            said, _ = grader.communicate(timeout=60)  # the job that runs has not ended yet
+            said, _ = grader.communicate(timeout=60)  # the running job has not ended yet
         (tmp_path / "go").touch()
         assert grader.returncode == 1, said
         assert "Add --resume" in said

@@ -1,4 +1,4 @@
-"""A batch goes on, whatever happens to one submission."""
+"""A batch continues, whatever happens to one submission."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CHECKS = load_exercise("battery_service", hidden=True).checks
 
 
 def grade_by_content(submission, exercise, options, watcher, **_):
-    """Stands for the arenas: judges by a word in the source, so that the batch itself is what is tested."""
+    """Stands for the arenas: grades by a word in the source, so that the tests test only the batch."""
     (source,) = submission.sources.values()
     if "crash" in source:
         raise OSError("no space left on device")
@@ -75,7 +75,7 @@ def test_infrastructure_failures_are_not_graded_and_bad_submissions_are_zero(tmp
     assert results["emil"].grade.max_score == sum(check.points for check in CHECKS)
 
 
-def test_resume_grades_only_what_is_not_known(tmp_path, works, monkeypatch):
+def test_resume_grades_only_submissions_without_a_grade(tmp_path, works, monkeypatch):
     monkeypatch.setattr(module, "grade", grade_by_content)
     list(batch(tmp_path).run(works))
     again = {result.work.student: result.cached for result in batch(tmp_path, resume=True).run(works)}
@@ -98,7 +98,7 @@ def test_without_isolation_only_visible_checks_are_made(tmp_path, works, monkeyp
         assert not any(verdict.hidden for verdict in result.grade.checks)
 
 
-def test_leaving_early_ends_what_runs_and_starts_nothing_more(tmp_path, works, monkeypatch):
+def test_leaving_early_ends_running_gradings_and_starts_no_more(tmp_path, works, monkeypatch):
     started = []
     second_is_running = threading.Event()
 

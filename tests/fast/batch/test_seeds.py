@@ -1,4 +1,4 @@
-"""Hidden inputs are drawn anew for each batch, and stay what they were where a batch goes on."""
+"""Hidden inputs are drawn anew for each batch, but a resumed batch keeps its inputs."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ RECORD = BatchRecord("ended", "2026-03-01T12:00:00+00:00", 77, False, False, "na
 OLD_GRADES = [Grade("walk_to", "anna", "namespaces", seed=0)]
 
 
-def test_each_batch_has_a_seed_of_its_own_and_what_goes_on_keeps_it():
+def test_each_batch_has_its_own_seed_and_a_resumed_batch_keeps_it():
     assert len({choose_seeds(NEW, RECORD, (), ()).batch for _ in range(5)}) == 5
     for goes_on in (
         replace(NEW, resume=True),
@@ -44,14 +44,14 @@ def test_each_batch_has_a_seed_of_its_own_and_what_goes_on_keeps_it():
         assert choose_seeds(goes_on, watched, (), ()) == Seeds(77, per_submission=True)
 
 
-def test_a_seed_that_is_given_is_taken_and_one_of_an_earlier_version_found_in_its_grades():
+def test_a_given_seed_is_used_and_an_older_versions_seed_is_read_from_its_grades():
     given = replace(NEW, seed=5, resume=True)
     assert choose_seeds(given, RECORD, (), ()) == Seeds(5)
     assert choose_seeds(replace(NEW, resume=True), None, OLD_GRADES, ()) == Seeds(0)
     assert choose_seeds(NEW, None, OLD_GRADES, ()) != Seeds(0)
 
 
-def test_shards_agree_without_a_word_until_what_was_handed_in_differs(tmp_path):
+def test_shards_use_the_same_seed_unless_their_submissions_differ(tmp_path):
     works = []
     for student in ("anna", "bert"):
         path = tmp_path / f"{student}.py"
@@ -66,7 +66,7 @@ def test_shards_agree_without_a_word_until_what_was_handed_in_differs(tmp_path):
     assert choose_seeds(replace(first, resume=True), replace(RECORD, seed=seeds.batch), (), works) == seeds
 
 
-def test_under_watch_who_hands_in_again_meets_other_inputs():
+def test_with_watch_a_resubmission_is_graded_with_other_inputs():
     seeds = choose_seeds(replace(NEW, watch=True), None, (), ())
     before, after = {"walk_to.py": "x = 1\n"}, {"walk_to.py": "x = 2\n"}
     assert seeds.of("anna", before) == seeds.of("anna", dict(before))
@@ -82,7 +82,7 @@ def test_a_shard_is_a_part_of_the_whole_class(options):
         BatchRequest(Path("submitted"), Path("graded"), shard=Shard(1, 2), **options)
 
 
-def test_what_a_visible_check_sees_is_drawn_with_the_same_seed_in_every_batch(tmp_path, monkeypatch):
+def test_inputs_of_visible_checks_have_the_same_seed_in_every_batch(tmp_path, monkeypatch):
     seen: dict[str, int] = {}
 
     def look(run, *_):

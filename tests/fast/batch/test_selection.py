@@ -1,4 +1,4 @@
-"""Grading one student or one exercise leaves the grades of the others alone."""
+"""Grading one student or one exercise does not change the grades of the others."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ def grade(student: str, exercise: str, points: float = 1, seed: int = 0) -> Grad
         (["anna", "bert"], ["patterns"], [0, 2]),
     ],
 )
-def test_names_select(students, exercises, expected):
+def test_names_select_students_and_exercises(students, exercises, expected):
     assert select(WORKS, students, exercises) == [WORKS[number] for number in expected]
 
 
-def test_a_name_without_a_submission_is_told_with_those_there_are():
+def test_a_name_without_a_submission_is_reported_with_the_known_names():
     with pytest.raises(NothingSelected, match=r"--student carl: .*anna, bert"):
         select(WORKS, ["carl"], [])
     with pytest.raises(NothingSelected, match=r"--exercise walk: .*patterns, walk_to"):
@@ -41,7 +41,7 @@ def test_a_name_without_a_submission_is_told_with_those_there_are():
         select(WORKS[1:3], ["anna"], ["patterns"])
 
 
-def test_others_keep_their_rows_and_the_selected_has_the_new_one(tmp_path):
+def test_the_selected_row_is_replaced_and_the_others_stay(tmp_path):
     before = [grade("anna", "patterns"), grade("bert", "patterns"), grade("bert", "walk_to")]
     write_grades(tmp_path / "grades.json", before)
     again = grade("bert", "patterns", points=2)
@@ -49,7 +49,7 @@ def test_others_keep_their_rows_and_the_selected_has_the_new_one(tmp_path):
     assert read_grades(tmp_path / "none.json") == []
 
 
-def test_grades_of_another_seed_do_not_stand_beside_new_ones():
+def test_grades_of_different_seeds_are_not_mixed():
     require_seed([grade("anna", "patterns", seed=3)], Seeds(3))
     with pytest.raises(OtherSeed, match=r"with seed 3, .* seed 0;"):
         require_seed([grade("anna", "patterns", seed=3)], Seeds(0))

@@ -1,4 +1,4 @@
-"""Shards of a class hold each submission once, and a merge refuses what is not one batch."""
+"""Shards of a class contain each submission once, and a merge refuses shards of different batches."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def test_each_submission_is_in_one_shard_whatever_the_order(of):
 @pytest.mark.parametrize(
     "text", ["0/3", "4/3", "1", "1/0", "a/b", "-1/3", "1/3/5", "1/1000000000", "9" * 5000 + "/9"]
 )
-def test_no_part_of_a_class(text):
+def test_an_invalid_shard_is_refused(text):
     with pytest.raises(ValueError, match="expected K/N"):
         Shard.parse(text)
 
@@ -72,7 +72,7 @@ def test_a_merge_says_which_shard_and_whose_work_is_missing(tmp_path):
         ({"number": 2, "isolation": "untrusted"}, "without isolation"),
     ],
 )
-def test_what_is_not_one_batch_is_refused(tmp_path, change, message):
+def test_shards_of_different_batches_are_refused(tmp_path, change, message):
     make(tmp_path / "a", 1)
     make(tmp_path / "b", **change)
     with pytest.raises(CannotMerge, match=message):

@@ -1,4 +1,4 @@
-"""The programs of a class as tools for finding copies take them: the students' own lines, and apart what was given."""
+"""The programs of a class as input for plagiarism detection: the students' lines, and separately the starter code."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def test_a_folder_an_exercise_and_a_student_with_what_was_graded(tmp_path):
     }
 
 
-def test_what_is_handed_in_again_replaces_what_was_and_the_unreadable_leaves_nothing(tmp_path):
+def test_a_resubmission_replaces_the_earlier_files_and_an_unreadable_one_has_none(tmp_path):
     both = {"NavigateToPose.action": "1\n", "GetBatteryStatus.srv": "1\n"}
     write_source(tmp_path, result("anna", both, "interfaces"))
     write_source(tmp_path, result("bert", {"battery_service.py": "1\n"}))
@@ -43,7 +43,7 @@ def test_what_is_handed_in_again_replaces_what_was_and_the_unreadable_leaves_not
     assert files(tmp_path / "sources") == {"interfaces/anna/GetBatteryStatus.srv": "2\n"}
 
 
-def test_what_everyone_was_given_lies_apart_in_the_same_shape(tmp_path):
+def test_the_starter_code_is_in_a_separate_folder_of_the_same_layout(tmp_path):
     for exercise in ("battery_service", "battery_service", "walk_to"):
         write_base_code(tmp_path, exercise, PROJECT / "exercises")
     given = files(tmp_path / "sources/_base")

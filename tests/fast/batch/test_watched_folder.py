@@ -1,4 +1,4 @@
-"""A watched folder gives each submission once it is wholly there, and again when it has changed."""
+"""A watched folder yields each submission when it is complete, and again after a change."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def names(watched: WatchedFolder) -> list[str]:
     return [work.student for work in watched.poll()]
 
 
-def test_it_comes_when_two_looks_find_it_the_same_and_once(folder):
+def test_a_submission_is_yielded_once_after_two_polls_find_it_unchanged(folder):
     watched = WatchedFolder(folder)
     assert names(watched) == []
     hand_in(folder, "half of")
@@ -42,7 +42,7 @@ def test_it_comes_when_two_looks_find_it_the_same_and_once(folder):
     assert watched.unfinished == 0
 
 
-def test_what_is_replaced_while_it_is_graded_comes_again_after_that(folder):
+def test_a_submission_replaced_while_it_is_graded_is_yielded_again(folder):
     hand_in(folder, "first")
     watched = WatchedFolder(folder)
     names(watched)
@@ -55,7 +55,7 @@ def test_what_is_replaced_while_it_is_graded_comes_again_after_that(folder):
     assert names(watched) == ["anna"]
 
 
-def test_what_is_replaced_before_its_turn_waits_for_another_look(folder):
+def test_a_submission_replaced_before_its_turn_waits_for_another_poll(folder):
     for student in ("anna", "bert"):
         hand_in(folder, "first", student)
     watched = WatchedFolder(folder)
@@ -68,7 +68,7 @@ def test_what_is_replaced_before_its_turn_waits_for_another_look(folder):
     assert names(watched) == ["bert"]
 
 
-def test_a_file_of_the_same_size_that_was_moved_there_is_a_new_one(folder):
+def test_a_replacement_of_the_same_size_is_detected(folder):
     hand_in(folder, "first")
     watched = WatchedFolder(folder)
     names(watched)
@@ -80,7 +80,7 @@ def test_a_file_of_the_same_size_that_was_moved_there_is_a_new_one(folder):
     assert names(watched) == ["anna"]
 
 
-def test_an_empty_folder_is_no_submission_yet_and_one_with_another_file_is(folder):
+def test_an_empty_folder_is_not_a_submission_but_one_with_another_file_is(folder):
     (folder / "anna/battery_service").mkdir()
     watched = WatchedFolder(folder)
     assert [names(watched) for _ in range(3)] == [[], [], []]

@@ -1,4 +1,4 @@
-"""What the book makes of a chapter's cells: links that fit, questions and widgets on paper."""
+"""How the book shows a chapter's cells: its links, questions and widgets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The whole book, made without running its chapters: every page is there, and nothing comes from elsewhere."""
+"""The whole book, made without running its chapters: every page exists, and nothing is loaded from other sites."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ros_runtime.project import PROJECT
 
 
 class Page(HTMLParser):
-    """What a page names: its ids, the links to follow, and what is loaded with it."""
+    """A page's ids, its links, and the files that it loads."""
 
     def __init__(self, file: Path) -> None:
         super().__init__()
@@ -90,7 +90,7 @@ def test_the_search_finds_words_of_chapters_and_of_the_glossary(site: Path) -> N
     assert "docs/glossary" in index
 
 
-def test_what_sphinx_warns_of_is_told(tmp_path: Path) -> None:
+def test_warnings_of_sphinx_are_reported(tmp_path: Path) -> None:
     (tmp_path / "docs").mkdir()
     (tmp_path / "docs/glossary.md").write_text("# Glossary\n\n![gone](images/gone.png)\n")
     with pytest.raises(BookFailed, match=r"(?s)glossary\.md:3.*gone\.png"):

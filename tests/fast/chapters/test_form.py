@@ -14,8 +14,8 @@ from lab.learning.gap_cells import fill, gaps_of, is_empty, is_python
 
 CHAPTERS = Path(__file__).resolve().parents[3] / "chapters"
 NAMES = sorted(path.stem for path in CHAPTERS.glob("*.ipynb"))
-LESSONS = [name for name in NAMES if name != "12_design"]  # a design runs on no robot, and has no gaps
-MOST_WORDS = 2000  # between two things to do; at 130 words a minute a quarter of an hour
+LESSONS = [name for name in NAMES if name != "12_design"]  # chapter 12 needs no robot and has no gaps
+MOST_WORDS = 2000  # between two tasks; a quarter of an hour at 130 words a minute
 
 
 def read(name: str) -> nbformat.NotebookNode:

@@ -1,4 +1,4 @@
-"""What `course collect` makes of each platform's download."""
+"""`course collect` converts each platform's download."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def said(done: Result) -> str:
 
 
 def programs(submitted: Path) -> dict[str, str]:
-    """What `course grade` reads in the folder: the program of each student, all for battery_service."""
+    """Return the program of each student that `course grade` reads in the folder, all for battery_service."""
     works = collect(submitted).works
     assert {work.exercise for work in works} == {"battery_service"}
     return {work.student: work.read().sources["battery_service.py"] for work in works}
@@ -107,7 +107,7 @@ def test_every_download_becomes_what_grade_reads(tmp_path: Path, platform: str, 
 
 
 @pytest.mark.parametrize("platform", ["canvas", "moodle", "classroom50"])
-def test_a_folder_around_everything_is_nobodys(tmp_path: Path, platform: str) -> None:
+def test_a_folder_around_all_submissions_is_not_a_student(tmp_path: Path, platform: str) -> None:
     download = zipped(
         tmp_path / "d.zip", {f"submissions/{name}": text for name, text in ALL[platform].items()}
     )
@@ -141,7 +141,7 @@ def test_a_folder_around_everything_is_nobodys(tmp_path: Path, platform: str) ->
         ),
     ],
 )
-def test_what_is_left_aside_is_named(tmp_path: Path, platform: str, lines: list[str]) -> None:
+def test_ignored_files_are_named(tmp_path: Path, platform: str, lines: list[str]) -> None:
     done = course(
         zipped(tmp_path / "d.zip", ALL[platform]), "--from", platform, "--out", tmp_path / "submitted"
     )
@@ -149,7 +149,7 @@ def test_what_is_left_aside_is_named(tmp_path: Path, platform: str, lines: list[
         assert line in said(done)
 
 
-def test_the_time_of_a_submission_comes_along(tmp_path: Path) -> None:
+def test_the_time_of_a_submission_is_kept(tmp_path: Path) -> None:
     course(zipped(tmp_path / "d.zip", GRADESCOPE), "--from", "gradescope", "--out", tmp_path / "s")
     assert {work.student: work.timestamp for work in collect(tmp_path / "s").works} == {
         "2101": "2026-03-01 12:30:05 UTC",
@@ -181,7 +181,7 @@ def test_a_file_of_any_name_counts_where_the_exercise_is_given(tmp_path: Path) -
     assert "no submission from: bo-3, jo-4, kim-2 1 submissions" in said(done)
 
 
-def test_files_called_as_they_should_be_come_before_others(tmp_path: Path) -> None:
+def test_files_with_the_expected_name_are_preferred(tmp_path: Path) -> None:
     files = {"lee_1_5_battery_service.ipynb": notebook("right = 1\n"), "lee_1_9_scratch.ipynb": notebook()}
     download = zipped(tmp_path / "d.zip", files)
     course(download, "--from", "canvas", "--exercise", "battery_service", "--out", tmp_path / "s")
@@ -195,7 +195,7 @@ def test_an_exercise_of_two_files_keeps_both(tmp_path: Path) -> None:
     assert {path.name for path in (tmp_path / "s/lee-1/interfaces").iterdir()} == set(names)
 
 
-def test_classroom50_may_call_an_exercise_otherwise(tmp_path: Path) -> None:
+def test_an_exercise_may_have_another_name_in_classroom50(tmp_path: Path) -> None:
     files = {"robotics-hw-1-anna/battery_service.py": PROGRAM, "robotics-hw-1-bo-b/main.py": PROGRAM}
     download = zipped(tmp_path / "d.zip", files)
     told = ("--exercise", "battery_service", "--assignment", "hw-1")
@@ -204,7 +204,7 @@ def test_classroom50_may_call_an_exercise_otherwise(tmp_path: Path) -> None:
     assert programs(tmp_path / "s") == {"anna": PROGRAM, "bo-b": PROGRAM}
 
 
-def test_nothing_is_overwritten_without_being_asked(tmp_path: Path) -> None:
+def test_nothing_is_overwritten_without_the_option(tmp_path: Path) -> None:
     first = zipped(tmp_path / "1.zip", {"lee_1_5_battery_service.ipynb": notebook("old = 1\n")})
     second = zipped(
         tmp_path / "2.zip", {"lee_1_9_battery_service.py": "new = 1\n", "kim_2_9_battery_service.py": PROGRAM}

@@ -1,4 +1,4 @@
-"""Downloads made to harm who collects them: what they do not reach, and what is said of them."""
+"""Malicious downloads: they reach no other files, and they are reported."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ def test_a_member_that_is_there_twice_counts_once(tmp_path: Path) -> None:
     assert programs(tmp_path / "s") == {"lee-1": PROGRAM}
 
 
-def test_nobody_hands_in_for_somebody_else(tmp_path: Path) -> None:
+def test_a_download_cannot_add_files_to_another_student(tmp_path: Path) -> None:
     forged = "Eve_9_assignsubmission_file_Anna_1_assignsubmission_file_battery_service.py"
     inside = "Eve_9_assignsubmission_file_/Anna_1_assignsubmission_file_/battery_service.py"
     done = course(
@@ -151,7 +151,7 @@ def test_nobody_hands_in_for_somebody_else(tmp_path: Path) -> None:
     assert list(programs(tmp_path / "a")) == ["bo-2", "eve-9"]
 
 
-def test_a_students_own_metadata_says_nothing(tmp_path: Path) -> None:
+def test_a_students_own_metadata_is_ignored(tmp_path: Path) -> None:
     flat = {name.removeprefix("assignment_4_export/"): text for name, text in GRADESCOPE.items()}
     forged = {"submission_77/submission_metadata.yml": METADATA.replace("2101", "victim")}
     course(zipped(tmp_path / "d.zip", flat | forged), "--from", "gradescope", "--out", tmp_path / "s")
@@ -161,7 +161,7 @@ def test_a_students_own_metadata_says_nothing(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "metadata", ["", "[1]", "a: [", "x: !!python/object/apply:os.system ['true']", "submission_77: 3", "\x00"]
 )
-def test_metadata_that_is_none_runs_nothing_and_is_named(tmp_path: Path, metadata: str) -> None:
+def test_malicious_metadata_runs_no_code_and_is_reported(tmp_path: Path, metadata: str) -> None:
     files = {"submission_metadata.yml": metadata, "submission_77/battery_service.py": PROGRAM}
     done = course(zipped(tmp_path / "d.zip", files), "--from", "gradescope", "--out", tmp_path / "s")
     assert done.exit_code == 2
@@ -179,7 +179,7 @@ def test_names_become_folders_of_the_class_or_are_refused(tmp_path: Path, sid: s
     assert {"bert@x.org", "cleo@x.org"} <= set(programs(tmp_path / "out/s"))
 
 
-def test_what_lies_in_the_way_is_left_alone(tmp_path: Path) -> None:
+def test_existing_files_at_the_target_are_not_touched(tmp_path: Path) -> None:
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
     (tmp_path / "s/lee-1").mkdir(parents=True)

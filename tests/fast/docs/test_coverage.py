@@ -1,4 +1,4 @@
-"""docs/coverage.md tells the truth: every row names its proofs, and every cell, check, test and submission is there."""
+"""docs/coverage.md is correct: every row names its proofs, and every named cell, check, test and submission exists."""
 
 from __future__ import annotations
 
@@ -95,13 +95,13 @@ def require_read(cells: list[str], tests: list[str]) -> None:
         assert cell in NOT_BY_NAME or any(f'"{cell}"' in source_of(test) for test in tests), cell
 
 
-def test_no_row_that_was_done_has_gone() -> None:
+def test_no_finished_row_was_removed() -> None:
     assert [row[0] for row in rows()] == DONE
     assert "*Partial*" not in PAGE
 
 
 @pytest.mark.parametrize("row", rows(), ids=name_of)
-def test_what_a_row_names_is_there(row: Row) -> None:
+def test_each_name_in_a_row_exists(row: Row) -> None:
     for column in row[1]:
         for proof in column:
             require_proof(proof)
@@ -139,12 +139,12 @@ def test_a_misconception_is_seen_failing_and_is_caught_by_the_checks_that_its_su
         "a/faulty/none",
     ],
 )
-def test_a_proof_that_is_gone_is_noticed(proof: str) -> None:
+def test_a_missing_proof_is_detected(proof: str) -> None:
     with pytest.raises((AssertionError, HeaderError)):
         require_proof(proof)
 
 
-def test_a_cell_that_no_test_reads_is_noticed() -> None:
+def test_a_cell_that_no_test_reads_is_detected() -> None:
     with pytest.raises(AssertionError, match="m8-run"):
         require_read(
             ["02_services#m8-run"],

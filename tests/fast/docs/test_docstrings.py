@@ -57,5 +57,5 @@ def test_a_file_with_annotations_postpones_them() -> None:
 
 
 @pytest.mark.parametrize("text", ["Raises :class:`Leak`.", "Returns ``None``."])
-def test_other_markup_is_noticed(text: str) -> None:
+def test_other_markup_is_detected(text: str) -> None:
     assert OTHER_MARKUP.search(text)

@@ -1,4 +1,4 @@
-"""What a student reads of an exercise before writing: how long it takes, where hints are, which step passes what."""
+"""The statement of each exercise: its duration, its folded hints, and the checks that each step passes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A failure points to the lesson where its fault is seen, and that lesson is there."""
+"""A failure points to the lesson that shows its fault, and that lesson exists."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ WHOLE = [ev.NodeStarted(t=0.0), ev.NodeReady(t=0.1, waited=0.1), ev.ScenarioEnde
 
 
 def lessons_of(exercise: str) -> list[str]:
-    """What its checks and the failures in its modules point to."""
+    """The lessons to which the exercise's checks and the failures in its modules point."""
     modules = (exercises_folder() / exercise).glob("*.py")
     named = [see for module in modules for see in re.findall(r'see="([^"]+)"', module.read_text())]
     return [*named, *(one.see for one in load_exercise(exercise, hidden=True).checks if one.see)]
@@ -39,7 +39,7 @@ def test_every_lesson_that_the_engine_itself_points_to_is_there() -> None:
 
 
 @pytest.mark.parametrize("see", ["02_services#no-such-cell", "99_nothing#title", "02_services"])
-def test_a_lesson_that_is_gone_is_noticed(see: str) -> None:
+def test_a_missing_lesson_is_detected(see: str) -> None:
     assert not lesson.is_there(see)
 
 

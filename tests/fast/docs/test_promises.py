@@ -1,4 +1,4 @@
-"""What docs/grading.md promises of students' processes is what the posture test compares them with."""
+"""The promises about students' processes in docs/grading.md are those that the posture test checks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The glossary and the cheat sheet say what is there, and minutes are the same wherever they are written."""
+"""The glossary and the cheat sheet are complete and correct, and all pages state the same minutes."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ def cells(chapter: str) -> set[str]:
 
 
 def rows(page: Path) -> list[list[str]]:
-    """The cells of a page's tables, without the heads."""
+    """The cells of a page's tables, without the header rows."""
     lines = [line for line in page.read_text().splitlines() if line.startswith("| ")]
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
 
 
 def code(column: int) -> list[str]:
-    """What stands in backticks in one column of the cheat sheet."""
+    """The code in one column of the cheat sheet, without backticks."""
     return [
         snippet
         for row in rows(DOCS / "cheat_sheet.md")
@@ -71,7 +71,7 @@ def test_the_cheat_sheet_has_every_function_of_the_lab_and_no_other() -> None:
     assert named == {name for name in lab.__all__ if name[0].islower()}
 
 
-def test_its_ros2_commands_are_those_that_there_are() -> None:
+def test_its_ros2_commands_exist() -> None:
     known = set(re.findall(r"^\| `(\w+ \w+)", (DOCS / "ros2_commands.md").read_text(), re.MULTILINE))
     used = {verb for text in code(2) for verb in re.findall(r"\bros2 (\w+ \w+)", text)}
     assert len(used) > 15
@@ -163,15 +163,15 @@ def test_instructors_read_the_same_minutes_as_students() -> None:
 
 def test_instructors_read_how_many_points_are_hidden() -> None:
     page = (DOCS / "for_instructors.md").read_text()
-    told = {
+    stated = {
         name: (int(shown), int(kept)) for name, shown, kept in re.findall(r"`(\w+)` \| (\d+) \| (\d+)", page)
     }
     for name in exercise_names():
         checks = load_exercise(name, hidden=True).checks
-        assert told.pop(name) == tuple(
+        assert stated.pop(name) == tuple(
             sum(check.points for check in checks if check.hidden is hidden) for hidden in (False, True)
         )
-    assert told == {}
+    assert stated == {}
 
 
 def test_a_notebook_that_says_how_long_it_takes_says_what_the_start_page_says() -> None:

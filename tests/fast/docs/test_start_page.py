@@ -1,4 +1,4 @@
-"""The pages at which the lab is entered lead to everything, and no link between notebooks is broken."""
+"""The start pages link to every notebook, and no link between notebooks is broken."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every workaround says why it is there, where upstream stands, and how to remove it."""
+"""The README says of every workaround why it is needed, its state upstream, and how to remove it."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ def sections() -> dict[str, str]:
 
 def test_every_piece_has_a_section() -> None:
     assert PIECES
-    assert sections().keys() - {"What stands elsewhere"} == set(PIECES)
+    assert sections().keys() - {"Workarounds in other folders"} == set(PIECES)
 
 
 @pytest.mark.parametrize("piece", PIECES)
-def test_its_section_says_all_there_is_to_know(piece: str) -> None:
+def test_its_section_has_every_part(piece: str) -> None:
     section = sections()[piece]
     for heading in ("Why.", "Upstream.", "What depends on it.", "How to remove it."):
         assert re.search(rf"^\*\*{re.escape(heading)}\*\*\s+\S", section, re.MULTILINE), heading
@@ -41,7 +41,7 @@ def test_its_section_says_all_there_is_to_know(piece: str) -> None:
 
 
 @pytest.mark.parametrize("piece", PIECES)
-def test_the_tests_that_tell_when_it_can_go_are_there(piece: str) -> None:
+def test_the_tests_that_its_section_names_exist(piece: str) -> None:
     removal = sections()[piece].split("**How to remove it.**")[1]
     files = [found for name in re.findall(r"`(test_\w+\.py)`", removal) for found in TESTS.rglob(name)]
     assert files
@@ -50,7 +50,7 @@ def test_the_tests_that_tell_when_it_can_go_are_there(piece: str) -> None:
         assert any(f"def {test}(" in text for text in texts), test
 
 
-def test_the_files_that_it_names_are_there() -> None:
+def test_the_files_that_it_names_exist() -> None:
     roots = ("autograder", "lab", "ros_runtime", "robot_sim", "setup", "tests")
     named = re.findall(rf"`((?:{'|'.join(roots)})/[\w/.]*)`", PAGE)
     assert named

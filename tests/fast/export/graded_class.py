@@ -1,4 +1,4 @@
-"""A graded class of five: right, partly right with a hidden check failed, not graded, an essay marked, one waiting."""
+"""A graded class of five: correct, failing a hidden check, not graded, and an essay marked and one waiting."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What each platform's documentation says of its JSON, as JSON Schema: written from the pages, not from our models."""
+"""JSON Schemas of each platform's format, written from the platform's documentation, not from our models."""
 
 from __future__ import annotations
 

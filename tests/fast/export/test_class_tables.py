@@ -34,7 +34,7 @@ def rows(text: str) -> list[list[str]]:
 
 
 def of_canvas(text: str) -> tuple[str, dict[str, float]]:
-    """What Canvas would import: the assignment's id, and a score for each student's ID."""
+    """The data that Canvas would import: the assignment's id, and a score for each student's id."""
     heading, points, *students = rows(text)
     assert heading[:2] == ["Student", "ID"]
     assert heading[-2] == "Section"
@@ -82,7 +82,7 @@ def test_canvas_gets_a_file_an_exercise_so_that_no_cell_is_empty(tmp_path: Path)
     assert whys(made) == {"cleo": "not graded"}
 
 
-def test_canvas_without_a_roster_takes_names_for_logins_and_says_so() -> None:
+def test_canvas_without_a_roster_uses_names_as_logins_and_prints_it() -> None:
     made = export("canvas", [ANNA, replace(SAME, student="bert-102")], OPTIONS)
     heading, points, *students = rows(made.files["battery_service.csv"])
     assert heading == ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "battery_service"]
@@ -160,7 +160,7 @@ def test_canvas_may_split_names_and_show_no_points(tmp_path: Path) -> None:
     )
 
 
-def test_anonymous_students_are_in_no_gradebook(tmp_path: Path) -> None:
+def test_anonymous_students_are_left_out_of_gradebooks(tmp_path: Path) -> None:
     made = export(
         "canvas", [replace(ANNA, student="anon_aB3cD")], replace(OPTIONS, roster=roster(tmp_path, CANVAS))
     )
@@ -236,7 +236,7 @@ def test_a_worksheet_on_a_scale_is_refused(tmp_path: Path) -> None:
         )
 
 
-def test_a_workbook_is_told_from_a_table_and_excels_own_first_line_is_none(tmp_path: Path) -> None:
+def test_a_workbook_is_distinguished_from_a_table_and_excels_first_line_is_skipped(tmp_path: Path) -> None:
     for begins in (b"PK\x03\x04", b"\xd0\xcf\x11\xe0"):
         (tmp_path / "book.csv").write_bytes(begins + b"\x14\x00\xff")
         with pytest.raises(UnusableBatch, match="workbook"):
@@ -258,7 +258,7 @@ def test_moodle_finds_students_by_address_or_number(students: tuple[str, str], k
     )
 
 
-def test_moodles_map_of_names_is_used(tmp_path: Path) -> None:
+def test_moodles_mapping_of_names_is_used(tmp_path: Path) -> None:
     path = roster(tmp_path, "student,useridnumber\nanna,2101\nbert,=2102\n")
     made = export("moodle", [ANNA, BERT, DORA], replace(OPTIONS, roster=path))
     assert [row[0] for row in rows(made.files["battery_service.csv"])] == ["useridnumber", "2101"]
@@ -275,7 +275,7 @@ def test_moodles_worksheet_is_handed_back_with_grades_and_only_the_rows_that_hav
     assert (row["Identifier"], row["Grade"], row["Last modified (grade)"]) == ("Participant 9001", "5", "-")
 
 
-def test_moodles_feedback_is_escaped_and_silent_about_hidden_checks() -> None:
+def test_moodles_feedback_is_escaped_and_omits_hidden_checks() -> None:
     made = export("moodle", [replace(BERT, student="2102")], OPTIONS)
     words = rows(made.files["battery_service.csv"])[1][2]
     assert "&lt;script&gt;" in words
@@ -312,12 +312,12 @@ def test_a_name_that_is_a_formula_stays_text_in_the_table() -> None:
         ("Student,ID\nanna,1\n", "with Student, ID and Section"),
     ],
 )
-def test_a_roster_that_is_none_is_refused(tmp_path: Path, text: str, said: str) -> None:
+def test_a_file_that_is_not_a_roster_is_refused(tmp_path: Path, text: str, said: str) -> None:
     with pytest.raises(UnusableBatch, match=said):
         export("canvas", [ANNA], replace(OPTIONS, roster=roster(tmp_path, text)))
 
 
-def test_the_same_name_twice_in_a_roster_is_left_to_a_person(tmp_path: Path) -> None:
+def test_a_duplicate_name_in_a_roster_is_reported(tmp_path: Path) -> None:
     twice = CANVAS + '"Lee, Anna",104,s4,anna,A,,3\n'
     made = export("canvas", [ANNA], replace(OPTIONS, roster=roster(tmp_path, twice)))
     assert "is in 2 rows" in whys(made)["anna"]

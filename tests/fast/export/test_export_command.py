@@ -42,7 +42,7 @@ def test_it_writes_beside_the_grades_and_names_what_has_no_score(tmp_path: Path)
     assert "emil's arm_architecture: not marked yet" in done.output
 
 
-def test_an_earlier_score_does_not_outlive_its_grade(tmp_path: Path) -> None:
+def test_the_score_of_a_removed_grade_is_removed(tmp_path: Path) -> None:
     graded = graded_folder(tmp_path / "graded", ANNA)
     course("--format", "classroom50", "--classroom", "c", "--from", graded)
     assert files(graded / "exports") == ["classroom50/anna/battery_service/result.json"]
@@ -52,7 +52,7 @@ def test_an_earlier_score_does_not_outlive_its_grade(tmp_path: Path) -> None:
     assert files(graded / "exports") == []
 
 
-def test_what_a_platform_cannot_say_ends_with_status_1(tmp_path: Path) -> None:
+def test_grades_that_a_platform_cannot_represent_end_with_status_1(tmp_path: Path) -> None:
     done = course("--format", "classroom50", "--classroom", "c", "--from", graded_folder(tmp_path, DORA))
     assert done.exit_code == 1
     assert "dora's arm_architecture: 2.5 points" in done.output

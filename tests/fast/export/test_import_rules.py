@@ -1,4 +1,4 @@
-"""The rooms of collect, export and on_gradescope import what docs/architecture.md says, and nothing else."""
+"""The packages collect, export and on_gradescope import only what docs/architecture.md allows."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MAY_IMPORT = {
 
 
 def imported(file: Path) -> set[str]:
-    """The rooms of the grader that a file imports from."""
+    """The packages of the grader from which a file imports."""
     nodes = list(ast.walk(ast.parse(file.read_text())))
     modules = [node.module or "" for node in nodes if isinstance(node, ast.ImportFrom)]
     modules += [alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names]
@@ -25,13 +25,13 @@ def imported(file: Path) -> set[str]:
 
 
 @pytest.mark.parametrize("room", MAY_IMPORT)
-def test_a_room_imports_only_what_it_may(room: str) -> None:
+def test_a_package_imports_only_what_it_may(room: str) -> None:
     files = sorted((GRADER / "classroom" / room).glob("*.py"))
     assert len(files) > 2
     assert {file.name: sorted(found) for file in files if (found := imported(file) - MAY_IMPORT[room])} == {}
 
 
-def test_the_page_says_the_same() -> None:
+def test_the_architecture_page_lists_the_same_imports() -> None:
     page = (GRADER.parent / "docs/architecture.md").read_text()
     for room, may in MAY_IMPORT.items():
         (row,) = [line for line in page.splitlines() if line.startswith(f"| · · `{room}/`")]

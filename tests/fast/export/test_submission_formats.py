@@ -1,4 +1,4 @@
-"""The formats with a file for each submission: valid, silent about hidden checks, and never a wrong zero."""
+"""The formats with a file for each submission: valid, without hidden checks, and without a wrong zero."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def read(name: str, one: Grade, options: Any = OPTIONS) -> Any:
 
 
 def said_to_students(name: str, one: Grade) -> str:
-    """All that a student can read of a file: of Gradescope's without the tests that it keeps from them."""
+    """The text of a file that a student can read; for Gradescope without the tests that it hides."""
     if name != "gradescope":
         return file_of(name, one)
     results = read(name, one)
@@ -72,7 +72,7 @@ def test_instructors_can_ask_for_everything(name: str) -> None:
 
 
 @pytest.mark.parametrize("one", WITHOUT_SCORE, ids=lambda one: one.student)
-def test_what_has_no_score_gets_none_anywhere(one: Grade) -> None:
+def test_a_submission_without_a_score_gets_none_in_any_format(one: Grade) -> None:
     gradescope = read("gradescope", one)
     assert "score" not in gradescope
     assert "tests" not in gradescope
@@ -95,7 +95,7 @@ def test_gradescope_gives_the_grades_score_and_keeps_hidden_tests_from_students(
     assert full["stdout_visibility"] == "hidden"
 
 
-def test_text_of_students_is_text_and_nothing_else() -> None:
+def test_text_of_students_is_never_interpreted_as_markup() -> None:
     formats = [test["output_format"] for test in read("gradescope", BERT)["tests"]]
     assert set(formats) == {"text"}
     failure = Xml.fromstring(file_of("junit", BERT)).find(".//failure")
@@ -108,7 +108,7 @@ def test_text_of_students_is_text_and_nothing_else() -> None:
         assert not {"\x00", "\x1b", "\\u0000", "\\u001b"} & set(text)
 
 
-def test_marks_by_hand_count_with_their_halves_where_the_platform_has_them() -> None:
+def test_manual_marks_keep_half_points_if_the_platform_supports_them() -> None:
     assert read("gradescope", DORA)["score"] == 2.5
     refused = export("classroom50", [DORA], OPTIONS)
     assert not refused.files
@@ -116,7 +116,7 @@ def test_marks_by_hand_count_with_their_halves_where_the_platform_has_them() -> 
     assert "2.5 points" in refused.left_out[0].why
 
 
-def test_junit_counts_what_is_in_it() -> None:
+def test_the_counts_in_junit_match_its_test_cases() -> None:
     suite = Xml.fromstring(file_of("junit", BERT)).find("testsuite")
     assert suite is not None
     assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("3", "3", "0")

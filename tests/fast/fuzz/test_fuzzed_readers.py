@@ -1,4 +1,4 @@
-"""Readers return a value or say why not, whatever a student sends; and what fuzzers found stays mended."""
+"""Readers return a value or a reason, whatever a student sends; errors that fuzzers found have tests here."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from fuzz.fuzzer import LONG, SUITE, Fuzzer
 from fuzz.readers import records
 from fuzz.readers.all import CHANNELS, READERS
 
-IN_ARENAS = ("answers-judged",)  # it reads all recorded runs, which takes seconds: tests/arena/fuzz
+IN_ARENAS = ("answers-judged",)  # reads all recorded runs, which takes seconds; so it is in tests/arena/fuzz
 
 
 @pytest.mark.parametrize("name", [name for name in READERS if name not in IN_ARENAS])
-def test_nothing_is_found(name: str, pytestconfig: pytest.Config) -> None:
+def test_the_fuzzer_finds_no_error(name: str, pytestconfig: pytest.Config) -> None:
     READERS[name].run(LONG if pytestconfig.getoption("long_fuzz") else SUITE)
 
 
@@ -35,7 +35,7 @@ def test_every_channel_has_a_fuzzer() -> None:
     assert {fuzzer.channel for fuzzer in READERS.values()} == set(CHANNELS)
 
 
-def test_what_is_found_is_as_small_as_can_be() -> None:
+def test_a_finding_is_reduced_to_a_minimal_input() -> None:
     tried: list[int] = []
 
     def refuse_large(number: int) -> None:
@@ -59,7 +59,7 @@ def test_what_is_found_is_as_small_as_can_be() -> None:
     ],
     ids=["brackets", "a list for a kind", "an object for a kind", "a number that no field holds"],
 )
-def test_a_report_that_cannot_be_read_is_no_ground_for_a_grade(line: bytes) -> None:
+def test_an_unreadable_report_gives_no_grade(line: bytes) -> None:
     with pytest.raises(NotGraded, match="cannot be read"):
         read_events(line + b"\n")
 
@@ -84,7 +84,7 @@ def test_a_folder_in_the_place_of_a_file_is_reported(tmp_path: Path, name: str) 
         work.read()
 
 
-def test_a_file_that_nobody_may_read_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_unreadable_file_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "battery_service.py"
     path.write_text("pass")
 
@@ -97,7 +97,7 @@ def test_a_file_that_nobody_may_read_is_reported(tmp_path: Path, monkeypatch: py
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may read every folder")
-def test_a_folder_that_nobody_may_read_costs_nobody_else_a_grade(tmp_path: Path) -> None:
+def test_an_unreadable_folder_costs_no_other_student_a_grade(tmp_path: Path) -> None:
     for student in ("anna", "zoe"):
         (tmp_path / student).mkdir()
         (tmp_path / student / "battery_service.py").write_text("pass")
@@ -121,7 +121,7 @@ def test_a_damaged_file_of_grades_says_what_to_do(tmp_path: Path, content: str) 
 
 
 @pytest.mark.parametrize("points", [3, -1, float("nan")])
-def test_no_grade_has_points_that_cannot_be(points: float) -> None:
+def test_no_grade_has_impossible_points(points: float) -> None:
     check = GRADE["checks"][0] | {"points": points}
     with pytest.raises(ValueError, match="points"):
         Grade.from_json(GRADE | {"checks": [check]})
@@ -137,14 +137,14 @@ def test_a_damaged_shard_is_refused(tmp_path: Path, change: dict[str, object]) -
         merge_shards([tmp_path])
 
 
-def test_a_shard_with_half_a_character_is_merged(tmp_path: Path) -> None:
+def test_a_shard_with_a_lone_surrogate_is_merged(tmp_path: Path) -> None:
     record = json.loads(records._SHARDS[0])
     record["graded"][0]["problem"] = "\ud800"
     (tmp_path / SHARD).write_text(json.dumps(record))
     assert next(result.problem for result in merge_shards([tmp_path]).results) == "\ud800"
 
 
-def test_a_shard_with_a_grade_that_cannot_be_is_refused(tmp_path: Path) -> None:
+def test_a_shard_with_an_impossible_grade_is_refused(tmp_path: Path) -> None:
     record = json.loads(records._SHARDS[0])
     record["graded"][0]["grade"]["checks"][0]["points"] = 100
     (tmp_path / SHARD).write_text(json.dumps(record))
@@ -153,12 +153,12 @@ def test_a_shard_with_a_grade_that_cannot_be_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("content", [b"", b"[" * 100_000, b'[null, "<svg/>"]', b"{}", b"\xff"])
-def test_damaged_drawings_and_a_damaged_cache_are_as_if_not_there(content: bytes) -> None:
+def test_damaged_drawings_and_a_damaged_cache_are_ignored(content: bytes) -> None:
     records.require_cached_or_none(content)
     records.require_drawings_or_none(content)
 
 
-def test_drawings_that_are_sound_are_found(tmp_path: Path) -> None:
+def test_valid_drawings_are_read(tmp_path: Path) -> None:
     drawings, failed = Drawings(tmp_path), records._GRADE.checks[1]
     drawings.keep("battery_service", {}, failed, ["<svg/>"])
     assert drawings.of(records._GRADE, {}) == {"b": ["<svg/>"]}

@@ -72,7 +72,7 @@ def test_it_holds_visible_checks_and_no_more(package: Path) -> None:
     assert b"### BEGIN SOLUTION" not in content
 
 
-def test_its_modules_need_nothing_that_it_does_not_hold(package: Path, tmp_path: Path) -> None:
+def test_its_modules_import_only_modules_that_it_contains(package: Path, tmp_path: Path) -> None:
     program = """
 import importlib, pkgutil
 import autograder, course_cli, robot_sim, ros_runtime

@@ -1,4 +1,4 @@
-"""What results.json says of uploads that never reach an arena, and of a container that cannot grade."""
+"""results.json for uploads that never reach an arena, and for a container that cannot grade."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def test_a_package_for_all_exercises_asks_for_the_file_of_one(
     assert said in results.output
 
 
-def test_a_container_that_cannot_grade_writes_no_score_and_forgets_the_last_one(
+def test_a_container_that_cannot_grade_writes_no_score_and_removes_the_last_one(
     container: Container, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("COURSE_ISOLATION", "none")
@@ -88,7 +88,7 @@ def test_a_container_that_cannot_grade_writes_no_score_and_forgets_the_last_one(
     }
 
 
-def test_an_error_of_the_grader_is_no_score(container: Container, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_error_of_the_grader_gives_no_score(container: Container, monkeypatch: pytest.MonkeyPatch) -> None:
     def fail() -> Isolation:
         raise RuntimeError("a broken image")
 

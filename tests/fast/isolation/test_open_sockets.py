@@ -1,4 +1,4 @@
-"""A limit of sockets, where the network is shared, counts a student's own sockets and nobody else's."""
+"""With a shared network, the limit of sockets counts only the student's own sockets."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ input()
 
 @contextmanager
 def running(code: str) -> Iterator[int]:
-    """A process that holds what the code makes."""
+    """A process that runs the code and keeps its objects open."""
     with subprocess.Popen(
         [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE
     ) as process:

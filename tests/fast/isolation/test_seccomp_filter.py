@@ -1,4 +1,4 @@
-"""What the filter refuses and what it lets pass, tried by a process that has installed it."""
+"""The system calls that the filter refuses and allows, tested by a process that has installed it."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ asyncio.run(run())
 
 
 def errno_of(code: str) -> int:
-    """Return the error that the code met with under the filter; 0: none."""
+    """Return the errno that the code gets under the filter; 0 without an error."""
     numbers = [str(pyseccomp.resolve_syscall(pyseccomp.Arch.NATIVE, name)) for name in ("mincore", "mq_open")]
     done = subprocess.run(
         [sys.executable, "-c", CONFINED, code, *numbers],

@@ -1,4 +1,4 @@
-"""What is in a picture that a notebook embeds."""
+"""Reads the pictures that a notebook embeds."""
 
 from __future__ import annotations
 

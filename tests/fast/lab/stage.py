@@ -1,4 +1,4 @@
-"""A robot that exists only as its messages, for what a recording makes of them."""
+"""A robot that consists only of its messages, for the tests of recordings."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from lab.pictures.recording import Recording
 
 
 class Stage:
-    """Feeds a recording with what a robot would publish, at times since its beginning."""
+    """Sends a recording the messages of a robot, with times since the start of the recording."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.now = 1000.0

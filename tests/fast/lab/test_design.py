@@ -1,4 +1,4 @@
-"""A notebook draws a design, and asks for what is missing, without judging it."""
+"""A notebook draws a design and lists its missing facts, without grading it."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ WHOLE = HALF + "    failure: after 0.5 s it says so\n    safety: it moves nothin
 
 @pytest.fixture
 def kept(monkeypatch: pytest.MonkeyPatch) -> list[tuple]:
-    """What is kept for the page of progress."""
+    """The entry that is stored for the progress page."""
     made: list[tuple] = []
-    monkeypatch.setattr(module, "keep_check", lambda *check: made.append(check))
+    monkeypatch.setattr(module, "store_check", lambda *check: made.append(check))
     return made
 
 
@@ -43,7 +43,7 @@ def test_what_is_missing_is_printed_link_by_link(
     assert kept == [("arm", 4, 12)]
 
 
-def test_all_six_facts_are_no_judgement(
+def test_a_design_with_all_six_facts_is_not_graded(
     tmp_path: Path, capsys: pytest.CaptureFixture, kept: list[tuple]
 ) -> None:
     lab.check_design(written(tmp_path, WHOLE))
@@ -64,12 +64,12 @@ def test_for_a_missing_file_the_error_says_how_to_write_it(tmp_path: Path) -> No
         lab.draw_design(tmp_path / "arm.txt")
 
 
-def test_a_file_without_a_link_is_shown_one(tmp_path: Path) -> None:
+def test_for_a_file_without_a_link_an_example_is_printed(tmp_path: Path) -> None:
     with pytest.raises(lab.LabError, match="has no link yet; a link begins with"):
         lab.draw_design(written(tmp_path, "# YOUR CODE HERE\n"))
 
 
-def test_a_file_that_is_no_text_is_an_error_of_the_lab(tmp_path: Path) -> None:
+def test_a_file_that_is_not_text_raises_a_lab_error(tmp_path: Path) -> None:
     file = tmp_path / "arm.txt"
     file.write_bytes(b"\xff\xfe\x00")
     with pytest.raises(lab.LabError, match="cannot be read"):

@@ -1,4 +1,4 @@
-"""Films of the way to a goal show its status, its phases and where the robot was, and say so in words."""
+"""Films of a goal show its status, its phases and the robot's position, and have a text alternative."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def words(html: HTML) -> str:
 
 
 def near(picture: np.ndarray, colour: str, tolerance: int = 45) -> int:
-    """How many pixels are about of this colour."""
+    """The number of pixels of about this colour."""
     wanted = np.array([*bytes.fromhex(colour.removeprefix("#"))])
     return int((abs(picture - wanted).max(axis=2) < tolerance).sum())
 
@@ -116,8 +116,10 @@ def travel(stage: Stage) -> HTML:
     stage.recording.note(GoalSent(t=1000.0, goal="go 1", action="go", request=goal))
     stage.recording.note(GoalAnswered(t=1000.02, goal="go 1", accepted=True))
     for at, phase in ((0.1, "walking"), (0.5, "walking"), (1.1, "turning"), (1.5, "walking")):
-        told = FeedbackReceived(t=1000.0 + at, goal="go 1", feedback=NavigateToPose.Feedback(status=phase))
-        stage.recording.note(told)
+        feedback = FeedbackReceived(
+            t=1000.0 + at, goal="go 1", feedback=NavigateToPose.Feedback(status=phase)
+        )
+        stage.recording.note(feedback)
     stage.now = 1000.0 + FLASHING - 0.2
     stage.recording.mark("push")
     stage.recording.note(ResultReceived(t=1001.9, goal="go 1", status=4, result=NavigateToPose.Result()))
@@ -125,7 +127,7 @@ def travel(stage: Stage) -> HTML:
     return lab.film_from_above(stage.recording, reach=0.6, title="A trip")
 
 
-def test_a_trip_from_above_tells_its_phases_and_moments(stage: Stage) -> None:
+def test_a_trip_from_above_shows_its_phases_and_moments(stage: Stage) -> None:
     assert words(travel(stage)) == (
         "A trip, 2.0 s. Phases: walking from 0.1 s, turning from 1.1 s, walking from 1.5 s. 1.0 s: push. "
         "In the end SUCCEEDED, 0.42 m from the goal."
@@ -141,7 +143,7 @@ def test_the_phase_has_its_colour_and_the_push_flashes(stage: Stage) -> None:
     assert near(pushed, VERMILION) > 800  # another phase, and the ring around the robot
 
 
-def test_feedback_without_a_phase_is_no_trip(stage: Stage) -> None:
+def test_feedback_without_a_phase_is_refused(stage: Stage) -> None:
     walk_past(stage, at=1.5)
     with pytest.raises(lab.LabError, match="no feedback with a `status`"):
         lab.film_from_above(stage.recording)

@@ -59,7 +59,7 @@ def test_an_empty_gap_is_saved_and_says_where_to_write() -> None:
     assert kept("gaps") == {}
 
 
-def test_wrong_lines_are_answered_with_what_was_seen_and_what_to_do(
+def test_for_wrong_lines_the_observation_and_the_next_step_are_printed(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     with pytest.raises(lab.GapError) as raised:
@@ -75,7 +75,7 @@ def test_lines_that_are_not_python_are_quoted() -> None:
         write_and_check("double.py", "def double(x):\n    return (2 x\n")
 
 
-def test_right_lines_are_confirmed_and_kept(capsys: pytest.CaptureFixture[str]) -> None:
+def test_correct_lines_are_confirmed_and_saved(capsys: pytest.CaptureFixture[str]) -> None:
     write_and_check(" double.py ", fill(PROGRAM, "return 2 * x\n"))
     assert capsys.readouterr().out.splitlines()[-1] == "✓ double.py: double(4) is 8"
     assert list(kept("gaps")) == ["double.py"]

@@ -1,4 +1,4 @@
-"""The two gates at a moment of a run: which group is taken, and how many threads are free."""
+"""The two conditions for a callback at a moment of a run: a free callback group and a free thread."""
 
 from __future__ import annotations
 
@@ -51,7 +51,9 @@ def said(log: str, groups: dict[str, str], threads: int, moment: float | None = 
         (OWN, 4, "may run: its own group: free, 3 of 4 threads free."),
     ],
 )
-def test_it_begins_in_the_longest_callback(groups: dict[str, str], threads: int, expected: str) -> None:
+def test_the_gates_show_the_longest_callback_by_default(
+    groups: dict[str, str], threads: int, expected: str
+) -> None:
     shown = said(RUN, groups, threads)
     assert f"beat, if it is due, {expected}" in shown
     assert "look_around runs and keeps the default group." in shown
@@ -75,7 +77,7 @@ def test_a_callback_without_an_end_keeps_both_until_the_end(monkeypatch: pytest.
     assert "0 of 1 threads free" in said("100.0 T_0 look_around begins\n", DEFAULT, 1)
 
 
-def test_a_callback_whose_group_is_not_said_is_named() -> None:
+def test_a_callback_without_a_known_group_is_named() -> None:
     with pytest.raises(lab.LabError, match=r"scout\.py: say the group of look_around"):
         lab.draw_gates(node(RUN), {"beat": "default group"}, threads=1)
     with pytest.raises(lab.LabError, match="no steps"):

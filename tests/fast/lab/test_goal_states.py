@@ -1,4 +1,4 @@
-"""The picture of a goal's states shows those that the last goal had, when, and in what order."""
+"""The picture of a goal's states shows the states of the last goal, with their times and order."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def end(after: float, status: GoalStatus, goal: str = "go 1") -> None:
 
 
 def lit(svg: str) -> list[str]:
-    """The states that light up, in the order of their times."""
+    """The highlighted states, in the order of their times."""
     return [state for state, _ in sorted(_lit_after(svg).items(), key=lambda lights: lights[1])]
 
 
@@ -44,7 +44,7 @@ def _lit_after(svg: str) -> dict[str, float]:
     return {state: float(at) for state, at in re.findall(r"-(\w+) \{ 0%, ([\d.]+)% \{ opacity: 0 \}", svg)}
 
 
-def test_the_states_light_up_in_the_order_of_the_run() -> None:
+def test_the_states_are_highlighted_in_the_order_of_the_run() -> None:
     send()
     see((0.03, GoalStatus.EXECUTING), (1.5, GoalStatus.CANCELING), (1.6, GoalStatus.CANCELING))
     end(2.5, GoalStatus.CANCELED)
@@ -64,7 +64,7 @@ def test_a_rejected_goal_has_no_status() -> None:
     assert lit(lab.draw_goal_states().data) == ["REJECTED"]
 
 
-def test_a_state_that_the_status_topic_skipped_is_lit_with_the_next() -> None:
+def test_a_state_that_the_status_topic_skipped_is_highlighted_with_the_next() -> None:
     send()
     end(0.05, GoalStatus.ABORTED)
     svg = lab.draw_goal_states().data

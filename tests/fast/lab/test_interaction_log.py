@@ -1,4 +1,4 @@
-"""What is drawn of the events of a notebook, and what is dropped."""
+"""Which events of a notebook are drawn, and which are dropped."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_a_goal_is_drawn_with_each_new_status(log: InteractionLog) -> None:
     ]
 
 
-def test_a_status_that_is_faster_than_the_acceptance_is_drawn(log: InteractionLog) -> None:
+def test_a_status_that_arrives_before_the_acceptance_is_drawn(log: InteractionLog) -> None:
     log.append(GoalSent(goal=GOAL, action="stand_up", request=StandUp.Goal()))
     see_status(log, GoalStatus.EXECUTING)
     log.append(GoalAnswered(goal=GOAL, accepted=True))
@@ -66,7 +66,7 @@ def test_a_status_that_is_faster_than_the_acceptance_is_drawn(log: InteractionLo
     ]
 
 
-def test_the_next_call_begins_anew(log: InteractionLog) -> None:
+def test_the_next_call_begins_a_new_drawing(log: InteractionLog) -> None:
     call(log, 1)
     log.append(ModeChanged(mode=RobotMode.WALKING))
     call(log, 2)
@@ -95,7 +95,7 @@ def test_a_late_cancel_continues_its_goal(log: InteractionLog) -> None:
     assert drawn(log)[0] == "notebook > stand_up server: send_goal: empty"
 
 
-def test_giving_up_is_drawn_and_ends_what_was_pending(log: InteractionLog) -> None:
+def test_a_timeout_is_drawn_and_ends_the_pending_request(log: InteractionLog) -> None:
     log.append(ServiceCalled(call="march 1", service="march", request=SetBool.Request()))
     log.append(Unanswered(what="call", id="march 1", waited=0.5003))
     log.append(GaveUp(timeout=0.5))
@@ -104,7 +104,7 @@ def test_giving_up_is_drawn_and_ends_what_was_pending(log: InteractionLog) -> No
     assert len(drawn(log)) == 2
 
 
-def test_a_goal_whose_result_is_not_awaited_any_more_does_not_hold_the_next(log: InteractionLog) -> None:
+def test_a_goal_after_its_timeout_does_not_extend_the_next_drawing(log: InteractionLog) -> None:
     send_goal(log)
     log.append(Unanswered(what="result", id=GOAL, waited=1.0))
     call(log, 1)
@@ -113,7 +113,7 @@ def test_a_goal_whose_result_is_not_awaited_any_more_does_not_hold_the_next(log:
     assert drawn(log)[-1] == "stand_up server > notebook: feedback: phase 'rising'"
 
 
-def test_a_message_that_is_changed_afterwards_is_drawn_as_it_was(log: InteractionLog) -> None:
+def test_a_message_that_is_modified_afterwards_is_drawn_unmodified(log: InteractionLog) -> None:
     request = SetBool.Request(data=True)
     log.append(ServiceCalled(call="march 1", service="march", request=request))
     request.data = False

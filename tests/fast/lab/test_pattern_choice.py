@@ -1,4 +1,4 @@
-"""Topic, service or action, by the first question that is answered with yes."""
+"""The choice of topic, service or action by the first question that is answered with yes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ import lab
         (["no", "no", "no", "no"], "topic"),
     ],
 )
-def test_the_first_yes_decides_and_says_why(
+def test_the_first_yes_decides_with_a_reason(
     words: list[str], pattern: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     choice = lab.choose_pattern()
@@ -45,7 +45,7 @@ def test_the_questions_are_asked_in_order(capsys: pytest.CaptureFixture[str]) ->
     assert capsys.readouterr().out.splitlines() == asked[1:]
 
 
-def test_the_buttons_do_the_same_and_rest_when_it_is_decided() -> None:
+def test_the_buttons_do_the_same_and_are_disabled_after_the_decision() -> None:
     choice = lab.choose_pattern()
     note, row = choice._panel().children
     yes, no, restart = row.children

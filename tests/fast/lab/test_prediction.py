@@ -32,7 +32,7 @@ def in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def panel(prediction: Prediction) -> tuple[ipywidgets.ToggleButtons, ipywidgets.Button, ipywidgets.HTML]:
-    """What a student sees below the question: the answers, the button "Clear", and a note."""
+    """The widgets below the question: the answers, the button "Clear", and a note."""
     answers, row = prediction._panel().children
     note, clear = row.children
     return answers, clear, note
@@ -92,7 +92,7 @@ def test_predictions_are_kept_side_by_side() -> None:
     assert (Prediction(1, EXAMPLE).letter, Prediction(2, other).letter) == ("b", "a")
 
 
-def test_a_kept_choice_is_found_under_its_new_letter_and_not_under_new_words() -> None:
+def test_a_stored_choice_follows_its_words_not_its_letter() -> None:
     Prediction(1, EXAMPLE).choose("b")
     assert Prediction(1, Question(EXAMPLE.text, EXAMPLE.choices[::-1])).letter == "a"
     reworded = Question(EXAMPLE.text, (EXAMPLE.choices[0], Choice("four", "Count.", right=True)))
@@ -100,7 +100,7 @@ def test_a_kept_choice_is_found_under_its_new_letter_and_not_under_new_words() -
 
 
 @pytest.mark.parametrize("damaged", ["", "{", "[]", '{"predictions": []}'])
-def test_a_damaged_file_only_means_being_asked_again(damaged: str) -> None:
+def test_with_a_damaged_file_the_prediction_is_requested_again(damaged: str) -> None:
     Path(NAME).write_text(damaged)
     prediction = Prediction(1, EXAMPLE)
     assert prediction.letter is None
@@ -108,7 +108,7 @@ def test_a_damaged_file_only_means_being_asked_again(damaged: str) -> None:
     assert Prediction(1, EXAMPLE).letter == "b"
 
 
-def test_the_reply_answers_the_choice(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_reply_depends_on_the_choice(capsys: pytest.CaptureFixture[str]) -> None:
     prediction = Prediction(1, EXAMPLE)
     prediction.choose("a")
     prediction.reply()
@@ -139,7 +139,7 @@ def test_a_missing_prediction_is_reported() -> None:
 
 
 @pytest.mark.parametrize(("chapter", "number"), ALL)
-def test_every_wrong_choice_hears_why_it_was_sensible_and_what_it_missed(chapter: str, number: int) -> None:
+def test_the_reply_to_each_wrong_choice_says_why_it_is_plausible_and_wrong(chapter: str, number: int) -> None:
     choices = lab.predict(chapter, number).question.choices
     assert len(choices) >= 3
     assert len({choice.why for choice in choices}) == len(choices)

@@ -1,4 +1,4 @@
-"""A notebook's programs are in a folder of their own, and those of an earlier version stay where they are."""
+"""A notebook's programs are in a folder of their own, and programs of an earlier version stay in place."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lab.running import programs_folder
 
 @pytest.fixture
 def notebooks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The folder of a student's notebooks, where a kernel begins."""
+    """The folder of a student's notebooks, in which a kernel starts."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(programs_folder, "_notebooks", Path())
     return tmp_path
@@ -31,7 +31,7 @@ def test_each_notebook_writes_its_own_file_of_a_name(notebooks: Path) -> None:
     }
 
 
-def test_it_says_where_a_terminal_finds_them(
+def test_the_path_for_a_terminal_is_printed(
     notebooks: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(programs_folder, "WORK", notebooks.parent)

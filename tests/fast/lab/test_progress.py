@@ -1,4 +1,4 @@
-"""What a student has done: counted, and shown with a next step."""
+"""A student's progress is counted and shown with a next step."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from lab.learning.contents import read_contents
 from lab.learning.gap import read_gaps
 from lab.learning.prediction import predict
 from lab.learning.progress_file import keep
-from ros_runtime.self_checks import FILE, LastCheck, keep_check, last_checks
+from ros_runtime.self_checks import FILE, LastCheck, last_checks, store_check
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -102,9 +102,9 @@ def test_the_table_has_a_bar_for_each_part_and_links_that_lead_somewhere(
 def test_the_last_self_check_is_kept_above_the_exercises(tmp_path: Path) -> None:
     file = tmp_path / ".progress.json"
     (tmp_path / "battery_service").mkdir()
-    keep_check("battery_service", 3, 7, file)
-    keep_check("battery_service", 7, 7, file)
-    keep_check("of_another_course", 1, 1, file)
+    store_check("battery_service", 3, 7, file)
+    store_check("battery_service", 7, 7, file)
+    store_check("of_another_course", 1, 1, file)
     assert {name: (kept.passed, kept.total) for name, kept in last_checks(file).items()} == {
         "battery_service": (7, 7)
     }

@@ -28,11 +28,11 @@ def in_a_folder_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.chdir(tmp_path)
 
 
-def test_the_right_choice_is_right_and_says_why() -> None:
+def test_the_right_choice_is_confirmed_with_a_reason() -> None:
     assert Quiz("Question 1", EXAMPLE).mark("a") == "a: Right. Count."
 
 
-def test_a_wrong_choice_says_why_too() -> None:
+def test_a_wrong_choice_is_rejected_with_a_reason() -> None:
     assert Quiz("Question 1", EXAMPLE).mark("b") == "b: Not this one. One too many."
 
 
@@ -70,7 +70,7 @@ def test_a_missing_question_is_reported() -> None:
         lab.quiz(CHAPTERS[0], 99)
 
 
-def test_the_choices_come_in_an_order_of_each_students_own(
+def test_the_order_of_the_choices_differs_between_students(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     first: Counter[int] = Counter()

@@ -1,4 +1,4 @@
-"""What a recording holds, and what its plots show."""
+"""The content of a recording, and its plots."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def stage(monkeypatch: pytest.MonkeyPatch) -> Stage:
     return Stage(monkeypatch)
 
 
-def test_messages_stand_at_their_stamps_and_those_outside_the_block_are_left_out(stage: Stage) -> None:
+def test_messages_have_their_stamps_as_times_and_those_outside_the_block_are_left_out(stage: Stage) -> None:
     for tenth in range(-2, 14):
         stage.walk(tenth / 10, speed=tenth / 10)
     recording = stage.end(1.05)
@@ -43,18 +43,18 @@ def test_pitch_is_positive_forwards_whatever_the_heading(stage: Stage) -> None:
     np.testing.assert_allclose(np.sort(values), [-0.3] * 3 + [0.3] * 3, atol=1e-6)
 
 
-def test_the_heading_goes_on_where_it_turns_over(stage: Stage) -> None:
+def test_the_heading_is_unwrapped(stage: Stage) -> None:
     for step in range(9):
         stage.walk(step / 10, yaw=2.8 + 0.1 * step)
     np.testing.assert_allclose(stage.end(1.0).values("heading")[1], 2.8 + 0.1 * np.arange(9), atol=1e-6)
 
 
-def test_power_is_what_leaves_the_battery(stage: Stage) -> None:
+def test_power_is_positive_while_the_battery_discharges(stage: Stage) -> None:
     stage.publish("battery_state", BatteryState(voltage=50.0, current=-2.0), at=0.5)
     assert stage.end(1.0).mean("power") == pytest.approx(100.0)
 
 
-def test_a_joint_is_recorded_by_its_name_whatever_its_place(stage: Stage) -> None:
+def test_a_joint_is_recorded_by_its_name_whatever_its_index(stage: Stage) -> None:
     states = JointState(name=["l_elbow", "head_pan", "r_finger_1"], position=[-0.5, 0.3, 0.02])
     stage.publish("joint_states", states, at=0.2)
     reversed_states = JointState(name=states.name[::-1], position=states.position[::-1])
@@ -130,7 +130,7 @@ def test_the_time_between_two_moments_is_coloured_and_measured(stage: Stage) -> 
         recording.plot("speed", between={"never": ("STANDING", "FALLEN")})
 
 
-def test_marks_with_letters_that_mean_something_elsewhere_are_shown_as_they_are(stage: Stage) -> None:
+def test_marks_with_special_characters_are_shown_unchanged(stage: Stage) -> None:
     stage.walk(0.5)
     stage.recording.mark("$x$ < y & z_1")
     assert "$x$ < y & z_1" in read(stage.end(1.0).plot("speed")).texts
@@ -144,7 +144,7 @@ def test_an_unknown_quantity_is_refused_with_those_that_there_are(stage: Stage) 
             ask("sped")
 
 
-def test_an_empty_recording_says_so(stage: Stage) -> None:
+def test_an_empty_recording_is_reported(stage: Stage) -> None:
     stage.walk(-0.1)
     recording = stage.end(0.02)
     for ask in (lambda: recording.plot("speed"), lambda: recording.mean("power"), recording.film):
@@ -154,7 +154,7 @@ def test_an_empty_recording_says_so(stage: Stage) -> None:
         recording.plot()
 
 
-def test_it_is_whole_when_a_later_message_has_come(stage: Stage) -> None:
+def test_a_recording_is_complete_when_a_later_message_has_arrived(stage: Stage) -> None:
     stage.walk(0.9)
     recording = stage.end(1.0)
     assert not recording.has_all_messages()
@@ -190,7 +190,7 @@ def test_curves_are_named_and_described_in_words() -> None:
     assert "truth: way, m from 2.00 at time, s 0.00 to 4.00 at 1.00" in drawing.alt
 
 
-def test_a_band_shows_where_a_guess_is_near_the_truth() -> None:
+def test_a_band_shows_where_an_estimate_is_near_the_truth() -> None:
     curves = {
         "a guess": ([0, 1, 2, 3], [9, 5, 3, 1]),
         "a promise": ([0, 1, 2, 3], [1, 1, 1, 8]),
@@ -210,8 +210,6 @@ def test_a_band_shows_where_a_guess_is_near_the_truth() -> None:
         ({"a": ([1], [1, 2])}, "a: 1 values for t and 2 for y"),
     ],
 )
-def test_curves_that_are_none_are_refused(
-    curves: dict[str, tuple[list[float], list[float]]], said: str
-) -> None:
+def test_invalid_curves_are_refused(curves: dict[str, tuple[list[float], list[float]]], said: str) -> None:
     with pytest.raises(LabError, match=said):
         plot_curves(curves, "t", "y")

@@ -1,4 +1,4 @@
-"""A slider draws its picture anew for each value."""
+"""A slider redraws its picture for each value."""
 
 from __future__ import annotations
 

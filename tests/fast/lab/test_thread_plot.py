@@ -31,7 +31,7 @@ def test_two_threads_run_the_same_callback_at_once() -> None:
     assert spans_of(steps, 9.0) == [Span("a", "look", 1.0, 3.0), Span("b", "look", 2.0, 4.0)]
 
 
-def test_a_coroutine_holds_no_thread_while_it_awaits_and_may_go_on_elsewhere() -> None:
+def test_a_coroutine_holds_no_thread_while_it_awaits_and_may_resume_on_another() -> None:
     steps = read_steps("1.0 a look begins\n2.0 a look awaits\n3.0 b look resumes\n4.0 b look ends\n")
     assert spans_of(steps, 9.0) == [
         Span("a", "look", 1.0, 2.0),
@@ -41,7 +41,7 @@ def test_a_coroutine_holds_no_thread_while_it_awaits_and_may_go_on_elsewhere() -
 
 
 @pytest.mark.parametrize(("verb", "lane"), [("begins", "a"), ("awaits", NO_THREAD)])
-def test_what_never_ends_lasts_until_the_end(verb: str, lane: str) -> None:
+def test_a_callback_that_never_ends_is_drawn_until_the_end(verb: str, lane: str) -> None:
     steps = read_steps(f"1.0 a look {verb}\n")
     assert spans_of(steps, 9.0) == [Span(lane, "look", 1.0, 9.0, is_over=False)]
 

@@ -15,7 +15,7 @@ from lab.running.processes import Life, Process
 
 @dataclass(frozen=True)
 class Lived:
-    """Stands in for a node or program."""
+    """Stands for a node or program."""
 
     of: Life
 
@@ -49,7 +49,7 @@ def test_two_processes_of_one_file_have_numbers() -> None:
     assert {"server.py (1)", "server.py (2)"} <= set(drawing.texts)
 
 
-def test_of_a_burst_the_first_and_the_last_line_are_shown() -> None:
+def test_the_first_and_the_last_line_of_a_burst_are_shown() -> None:
     burst = [(1.0 + i / 1000, f"line {i}") for i in range(20)]
     drawing = read(draw_timeline(lived("crash.py", 0.0, 2.0, "exit status 1", *burst)))
     assert [text for text in drawing.texts if "line" in text] == ["line 0", "… 18 more lines …", "line 19"]

@@ -1,4 +1,4 @@
-"""solutions/, exercises/ and the checks say the same."""
+"""solutions/, exercises/ and the checks are consistent."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def test_notebooks_are_valid_stripped_and_have_stable_cell_ids(folder, exercise)
 
 
 @pytest.mark.parametrize("exercise", exercise_names())
-def test_a_release_holds_no_solution_and_does_not_tell_what_is_hidden(exercise):
+def test_a_release_contains_no_solution_and_no_hidden_checks(exercise):
     release = (EXERCISES / exercise / f"{exercise}.ipynb").read_text()
     assert "BEGIN SOLUTION" not in release
     assert "END SOLUTION" not in release
@@ -93,7 +93,7 @@ def test_no_module_with_visible_checks_names_a_hidden_one():
 
 
 @pytest.mark.parametrize("exercise", all_names())
-def test_the_starter_lacks_what_the_reference_has(exercise):
+def test_the_starter_lacks_the_solutions_of_the_reference(exercise):
     reference, starter = (solutions_in(folder, exercise) for folder in (SOLUTIONS, EXERCISES))
     assert list(reference) == list(starter) == list(file_names(exercise))
     for name, source in starter.items():
@@ -121,7 +121,7 @@ def test_making_the_release_again_gives_the_same_bytes(tmp_path):
         assert (tmp_path / "first" / name).read_bytes() == (tmp_path / "second" / name).read_bytes()
 
 
-def test_what_is_out_of_date_is_named_and_renewed(tmp_path):
+def test_outdated_files_are_named_and_renewed(tmp_path):
     solutions, exercises = tmp_path / "solutions", tmp_path / "exercises"
     shutil.copytree(SOLUTIONS, solutions)
     shutil.copytree(EXERCISES, exercises)

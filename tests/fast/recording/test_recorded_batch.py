@@ -1,4 +1,4 @@
-"""Recordings travel with the outcome of a job, whoever carries it out, and lie where the batch keeps them."""
+"""Recordings are returned with the outcome of a job, from any worker, and stored in the folder of the batch."""
 
 from __future__ import annotations
 
@@ -76,13 +76,13 @@ def test_each_submission_has_its_recordings_also_from_other_machines(
     assert asked == [True, True]
 
 
-def test_without_being_asked_for_none_is_made(tmp_path: Path, works: list[Work]) -> None:
+def test_without_the_option_no_recording_is_made(tmp_path: Path, works: list[Work]) -> None:
     list(batch(tmp_path, None).run(works))
     assert asked == [False, False]
     assert not list(tmp_path.rglob("*.mcap"))
 
 
-def test_a_recording_that_fails_costs_nobody_a_grade(
+def test_a_failed_recording_costs_no_grade(
     tmp_path: Path, works: list[Work], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def broken(*arguments: Any) -> bytes:

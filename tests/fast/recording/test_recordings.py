@@ -1,4 +1,4 @@
-"""What a recording holds, as an independent reader finds it."""
+"""The content of a recording, read by an independent reader."""
 
 from __future__ import annotations
 
@@ -108,8 +108,8 @@ def test_a_failed_check_is_an_error_at_its_time_and_a_passed_one_is_not(fall: An
     assert "Keep the motors on." in text
     assert lines["accepts"][:2] == (2.0, INFO)
     assert lines["walker"] == (0.5, WARN, "slow")
-    told = [line.msg for _, _, line in found["/arena/events"]]
-    assert any("goal “first” of walk_to" in text and "max_velocity=0.3" in text for text in told)
+    recorded = [line.msg for _, _, line in found["/arena/events"]]
+    assert any("goal “first” of walk_to" in text and "max_velocity=0.3" in text for text in recorded)
 
 
 def test_a_flood_does_not_fill_the_disk_nor_push_out_the_robot(tmp_path: Path) -> None:
@@ -128,7 +128,7 @@ def test_a_flood_does_not_fill_the_disk_nor_push_out_the_robot(tmp_path: Path) -
     assert [t for t, _, line in found["/rosout"] if line.function == "stays_up"] == [FELL_AT]
 
 
-def test_what_cannot_be_written_costs_only_itself(tmp_path: Path) -> None:
+def test_an_event_that_cannot_be_written_is_the_only_one_missing(tmp_path: Path) -> None:
     broken = WalkTo.Result(error_msg="half a pair: \ud83d")
     run = walk(
         ev.NodeOutput(t=0.7, stream="stdout", text="zero \0 and \ud83d"),
@@ -140,7 +140,7 @@ def test_what_cannot_be_written_costs_only_itself(tmp_path: Path) -> None:
     assert [t for t, _, _ in found["/robot/walk_to/_action/get_result/_service_event"]] == [1.9]
 
 
-def test_students_get_nothing_of_hidden_checks(tmp_path: Path) -> None:
+def test_students_recordings_contain_no_hidden_checks(tmp_path: Path) -> None:
     hidden = dataclasses.replace(secret, hidden=True)
     also_on_walk = dataclasses.replace(accepts, id="unseen", hidden=True)
     whole = exercise(accepts, hidden, also_on_walk)
@@ -154,11 +154,11 @@ def test_students_get_nothing_of_hidden_checks(tmp_path: Path) -> None:
         made[for_students] = recorder.files(Grade("walk_to", "zoe", "namespaces", verdicts))
     assert set(made[True]) == {"walk.mcap"}
     assert set(made[False]) == {"walk.mcap", f"{PUSH.name}.mcap"}
-    told = {
+    recorded = {
         for_students: {line.function for _, _, line in read(tmp_path, files["walk.mcap"])["/rosout"]}
         for for_students, files in made.items()
     }
-    assert told == {True: {"", "accepts"}, False: {"", "accepts", "unseen"}}
+    assert recorded == {True: {"", "accepts"}, False: {"", "accepts", "unseen"}}
 
 
 def test_the_run_on_which_a_point_was_lost_is_kept_whatever_comes_after(tmp_path: Path) -> None:
@@ -178,7 +178,7 @@ def test_the_run_on_which_a_point_was_lost_is_kept_whatever_comes_after(tmp_path
     assert read(tmp_path, files["walk.mcap"])["/arena/events"][-1][0] == 3.0
 
 
-def test_a_verdict_on_two_scenarios_is_told_in_both_with_the_other_named(tmp_path: Path) -> None:
+def test_a_verdict_on_two_scenarios_is_in_both_recordings(tmp_path: Path) -> None:
     on_both = dataclasses.replace(stays_up, judge=fall_in_one_of_two, on=(WALK, PUSH))
     runs = [walk(), walk()]
     verdict = judged(on_both, *runs)
@@ -195,7 +195,7 @@ def fall_in_one_of_two(first: Transcript, second: Transcript) -> None:
     raise Failure(expected="two that stand", observed="a fall", help="Keep the motors on.", at=FELL_AT)
 
 
-def test_no_check_sees_whether_a_recording_was_asked_for() -> None:
+def test_checks_cannot_detect_whether_a_recording_was_requested() -> None:
     postures, _ = simulated(seconds=0.2)
     with_postures, without = walk(postures=postures), walk()
     assert with_postures.postures
@@ -206,7 +206,7 @@ def test_no_check_sees_whether_a_recording_was_asked_for() -> None:
     assert judge(stays_up, [with_postures]) == judge(stays_up, [without])
 
 
-def test_recordings_of_an_earlier_grading_go(tmp_path: Path) -> None:
+def test_recordings_of_an_earlier_grading_are_removed(tmp_path: Path) -> None:
     keep(tmp_path, {"a.mcap": b"old", "b.mcap": b"old"})
     (tmp_path / "notes.txt").write_text("mine")
     keep(tmp_path, {"b.mcap": b"new"})

@@ -1,4 +1,4 @@
-"""A recording shown again: the robot where it was, and what happened beside it."""
+"""The replay of a recording: the robot's motion, with captions of the events."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def other_mcap(path: Path, metadata: dict[str, str] | None) -> Path:
     return path
 
 
-def test_the_body_takes_every_recorded_posture(fallen: Any) -> None:
+def test_the_body_has_every_recorded_posture(fallen: Any) -> None:
     path, places = fallen
     recording = Recording.read(path)
     body = RecordedBody(recording)
@@ -69,7 +69,7 @@ def test_the_body_takes_every_recorded_posture(fallen: Any) -> None:
         assert body.humanoid.data.qpos == pytest.approx(qpos, abs=NEAR)
 
 
-def test_between_two_postures_it_is_between_them(fallen: Any) -> None:
+def test_postures_are_interpolated(fallen: Any) -> None:
     path, _ = fallen
     recording = Recording.read(path)
     body = RecordedBody(recording)
@@ -82,7 +82,7 @@ def test_between_two_postures_it_is_between_them(fallen: Any) -> None:
     assert heights[1] == pytest.approx((heights[0] + heights[2]) / 2)
 
 
-def test_a_film_shows_the_recorded_robot_and_tells_what_happened(fallen: Any, tmp_path: Path) -> None:
+def test_a_film_shows_the_recorded_robot_and_captions_of_the_events(fallen: Any, tmp_path: Path) -> None:
     path, places = fallen
     recording = Recording.read(path)
     count = film(recording, Span(FALL, FELL_AT + 0.3), tmp_path / "fall.webp", camera="side")
@@ -111,7 +111,7 @@ def test_a_film_shows_the_recorded_robot_and_tells_what_happened(fallen: Any, tm
     assert min(red[before + 1 :]) > 40
 
 
-def test_the_first_lost_point_is_what_is_shown(fallen: Any) -> None:
+def test_a_replay_shows_the_first_lost_point_by_default(fallen: Any) -> None:
     recording = Recording.read(fallen[0])
     assert span_of(recording, None, 0.6) == Span(pytest.approx(FELL_AT - 0.4), pytest.approx(FELL_AT + 0.2))
     assert span_of(recording, "accepts", 0.6).end == recording.end
@@ -120,7 +120,7 @@ def test_the_first_lost_point_is_what_is_shown(fallen: Any) -> None:
         span_of(recording, "walks", None)
 
 
-def test_the_time_line_says_what_happened_in_order(fallen: Any) -> None:
+def test_the_time_line_lists_the_events_in_order(fallen: Any) -> None:
     lines = [line.plain for line in time_line(Recording.read(fallen[0]))]
     times = [float(line.split()[0]) for line in lines]
     assert times == sorted(times)
@@ -150,7 +150,7 @@ def test_much_feedback_is_summed_up() -> None:
     ]
 
 
-def test_what_a_program_printed_cannot_steer_the_terminal(tmp_path: Path) -> None:
+def test_output_of_a_program_cannot_control_the_terminal(tmp_path: Path) -> None:
     path = tmp_path / "walk.mcap"
     run = walk(ev.NodeOutput(t=0.7, stream="stdout", text="\x1b[2Jgone\x07 [red]mark[/red]"))
     path.write_bytes(recordings(run)["walk.mcap"])
@@ -162,7 +162,7 @@ def test_what_a_program_printed_cannot_steer_the_terminal(tmp_path: Path) -> Non
 
 
 class Seen:
-    """Stands for the web view, of which a process can open one: notes what it is shown."""
+    """Stands for the web view, which a process can open only once; records what it shows."""
 
     url = "http://here/"
 
@@ -186,14 +186,14 @@ class Seen:
 seen: list[Seen] = []
 
 
-def test_the_web_view_shows_the_fall_and_tells_each_moment_once(
+def test_the_web_view_shows_the_fall_and_prints_each_event_once(
     fallen: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     recording = Recording.read(fallen[0])
     span = Span(FELL_AT - 0.3, FELL_AT + 0.1)
     expected = [moment for moment in recording.moments if span.start <= moment.t <= span.end]
     clock = count()  # each look at the clock is a frame of 0.04 s later
-    told: list[Moment] = []
+    shown: list[Moment] = []
     monkeypatch.setattr(web, "WebView", Seen)
     monkeypatch.setattr(
         web, "time", SimpleNamespace(monotonic=lambda: next(clock) / 25, sleep=lambda _: None)
@@ -204,11 +204,11 @@ def test_the_web_view_shows_the_fall_and_tells_each_moment_once(
         span,
         0,
         on_ready=lambda url: None,
-        on_moment=told.append,
+        on_moment=shown.append,
         keep_running=lambda: next(frames, None) is not None,
     )
     (view,) = seen
-    assert told == expected
+    assert shown == expected
     assert expected
     assert view.is_closed
     lowest = min(range(60), key=lambda frame: view.heights[frame])
@@ -254,7 +254,7 @@ def test_the_command_writes_a_film_around_the_lost_point(fallen: Any, tmp_path: 
     assert ((last[:, :, 0] > 200) & (last[:, :, 2] < 150)).sum() > 40
 
 
-def test_what_cannot_be_shown_is_refused_with_what_to_do(fallen: Any, tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_shown_is_refused_with_a_next_step(fallen: Any, tmp_path: Path) -> None:
     path = fallen[0]
     text = tmp_path / "notes.mcap"
     text.write_text("no recording at all")

@@ -1,4 +1,4 @@
-"""What an instructor and a student read after a batch, from made-up grades."""
+"""The pages for instructors and students after a batch, made from invented grades."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def words(tag: Tag | BeautifulSoup) -> str:
 
 
 def section(page: BeautifulSoup, heading: str) -> str:
-    """What stands below a heading, up to the next."""
+    """The text below a heading, up to the next heading."""
     start = page.find("h2", string=re.compile(heading))
     assert isinstance(start, Tag)
     text = []
@@ -103,7 +103,7 @@ def rows(page: BeautifulSoup, caption: str) -> list[list[str]]:
     return [[words(cell) for cell in row.find_all(["th", "td"])] for row in table.select("tbody tr")]
 
 
-def test_the_hardest_checks_are_first_with_what_those_who_failed_were_told(tmp_path):
+def test_the_hardest_checks_are_first_with_the_observations_of_their_failures(tmp_path):
     easy, hard = failed("easy", help="Rarely said."), failed("hard", help="Often said.")
     never_made = check("late", "not run", help="Needs another.")
     grades = [
@@ -120,7 +120,7 @@ def test_the_hardest_checks_are_first_with_what_those_who_failed_were_told(tmp_p
     ]
 
 
-def test_the_scores_are_a_drawing_that_can_also_be_heard(tmp_path):
+def test_the_drawing_of_the_scores_has_a_text_alternative(tmp_path):
     full = grade("anna", check("a"), check("b"))
     half = [grade(name, check("a"), failed("b")) for name in ("bert", "carl")]
     page = read(pages_of(tmp_path, full, *half))
@@ -133,7 +133,7 @@ def test_the_scores_are_a_drawing_that_can_also_be_heard(tmp_path):
     assert "3 graded, median 2 of 4 points" in section(page, "^walk_to$")
 
 
-def test_who_needs_help_comes_with_what_to_talk_about(tmp_path):
+def test_students_who_need_help_are_listed_with_topics(tmp_path):
     page = read(
         pages_of(
             tmp_path,
@@ -172,7 +172,7 @@ def test_what_was_not_graded_is_first_with_its_reason_and_what_to_do(tmp_path):
     assert "OSError" not in seen
 
 
-def test_an_essay_waits_and_its_student_sees_no_half_of_the_points(tmp_path):
+def test_the_student_of_a_waiting_essay_sees_no_partial_points(tmp_path):
     essay = grade("anna", check("graph", "marked", points=1.5), check("qos", "to mark"), exercise="essay")
     page = read(pages_of(tmp_path, essay))
     assert "anna, essay: 1 of 2 criteria are not marked yet" in section(page, "To be marked by hand")
@@ -189,7 +189,7 @@ def test_an_empty_class_says_so(tmp_path):
 
 
 @pytest.mark.parametrize("status", ["passed", "failed", "not run"])
-def test_of_a_hidden_check_a_student_learns_whether_it_passed(tmp_path, status):
+def test_a_student_sees_only_whether_a_hidden_check_passed(tmp_path, status):
     drawings = {
         SECRETS[5]: ["<svg><desc>secret drawing</desc></svg>"],
         "walks": ["<svg><desc>a walk</desc></svg>"],
@@ -228,13 +228,13 @@ def test_of_a_hidden_check_a_student_learns_whether_it_passed(tmp_path, status):
         assert not [secret for secret in (*SECRETS[:5], "secret drawing") if secret not in text]
 
 
-def test_what_a_student_wrote_is_text(tmp_path):
+def test_a_students_text_is_escaped(tmp_path):
     shouting = failed(
         expected=MARKUP, observed=f"</dd>{MARKUP}", help="{{ 7 * 7 }}", log=f"</pre>{MARKUP}\ud800\x00\u202e"
     )
     broken = grade("bert", reason=f"{MARKUP}\n{MARKUP}")
     page = read(pages_of(tmp_path, grade(HOSTILE, shouting), broken, left_out=[MARKUP]))
-    assert words(page).count(MARKUP) >= 5  # bert's reason twice, the folder left aside, and HOSTILE's name
+    assert words(page).count(MARKUP) >= 5  # bert's reason twice, the ignored folder, and HOSTILE's name
     for top in BOTH:
         text = words(read(tmp_path / top / HOSTILE / "walk_to.html"))
         assert text.count(MARKUP) >= 4
@@ -295,7 +295,7 @@ def test_a_name_that_leads_elsewhere_is_refused(tmp_path, name):
     assert not list(tmp_path.rglob("*.html"))
 
 
-def test_the_class_page_says_how_it_was_graded_and_no_student_reads_the_seed(tmp_path):
+def test_only_the_class_page_has_the_grading_settings_and_the_seed(tmp_path):
     batch = {"seed of hidden checks": "314159", "isolation": MARKUP}
     graded = grade("anna", failed(), seed=314159)
     assert "How it was graded" not in words(read(pages_of(tmp_path, graded)))

@@ -1,4 +1,4 @@
-"""What is drawn of a failed check, from recorded events, and which submission it is shown for."""
+"""The drawings of a failed check, from recorded events, and the submission for which they are shown."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def test_a_walk_has_its_speed_with_the_goals_moments_and_its_path_with_the_goals
     assert "start: at 0.00, 0.00. goal “a &lt;b&gt;”: at 1.00, 0.00. end: at 1.00, 0.00." in path[1]
 
 
-def test_a_robot_that_stays_has_no_plot_and_a_goal_that_is_nowhere_no_place():
+def test_a_standing_robot_has_no_plot_and_an_invalid_goal_no_position():
     assert motion_svgs(walk(to=0.01), "stay") == []
     for nowhere in (float("nan"), float("inf"), 1e6):
         assert "goal" not in said(motion_svgs(walk(goal_x=nowhere), "walk")[1])[1]
@@ -93,7 +93,7 @@ def test_a_failed_check_has_its_drawings_under_its_own_submission_and_verdict_on
     assert Drawings(tmp_path).of(grade, None) == {}
 
 
-def test_what_passed_is_not_drawn_and_what_cannot_be_drawn_costs_nobody_a_grade(caplog):
+def test_passed_checks_are_not_drawn_and_a_failed_drawing_costs_no_grade(caplog):
     drawn = {}
     judged = drawing_into(drawn)
     judged(CheckVerdict("walks", "It walks", "passed", 2, 2), [walk()])

@@ -1,4 +1,4 @@
-"""The service compute_arm_ik sees a pose in odom from where the robot stands, whichever way it looks."""
+"""The service compute_arm_ik converts a pose in odom correctly, wherever the robot stands and whatever its heading."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SUCCESS = ComputeArmIK.Response.SUCCESS
 
 
 class StandInNode:
-    """What the service needs of a node."""
+    """Stands for the node, with only the methods that the service uses."""
 
     def create_service(self, service_type, name, answer):
         self.answer = answer
@@ -37,7 +37,7 @@ class StandInNode:
 
 @pytest.fixture
 def held() -> Humanoid:
-    """Held by a stand, so that its body does not give way and odom and base_link have the same answer."""
+    """A robot on the stand: its body does not move, so the same pose in odom and base_link has the same solution."""
     robot = Humanoid("stand")
     robot.reset(X, Y, YAW)
     return robot
@@ -77,7 +77,7 @@ def test_a_pose_in_odom_is_the_one_in_base_link_seen_from_elsewhere(held, orient
 
 
 @pytest.mark.parametrize("scene", ["flat", "table"])
-def test_for_where_the_hand_is_the_answer_is_the_posture_it_has(scene):
+def test_for_the_hands_present_pose_the_answer_is_the_present_posture(scene):
     robot = Humanoid(scene)
     robot.reset(X, Y, YAW, height=0.5)
     hand = robot.hands[Side.LEFT].pose

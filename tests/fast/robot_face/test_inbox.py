@@ -1,4 +1,4 @@
-"""What the robot hears of what anybody may send it, tried with bytes and without another node."""
+"""Which messages the robot accepts, tested with bytes and without another node."""
 
 import struct
 from types import SimpleNamespace
@@ -16,17 +16,17 @@ from robot_sim.ros.trajectory_size import MOST_BYTES, MOST_POINTS, count_joints_
 
 
 class Topic:
-    """A subscription whose messages are put here, and what becomes of them."""
+    """A subscription whose messages a test sets, and the messages and reports that result."""
 
     def __init__(self, kind, **limits):
-        self.waiting, self.heard, self.reports = [], [], []
+        self.waiting, self.received, self.reports = [], [], []
         subscription = SimpleNamespace(
-            topic_name="/robot/topic", msg_type=kind, callback=self.heard.append, handle=self
+            topic_name="/robot/topic", msg_type=kind, callback=self.received.append, handle=self
         )
         self.inbox = Inbox(subscription, lambda *report: self.reports.append(report), **limits)
 
     def take_message(self, kind, raw):
-        assert raw, "bytes are asked for"
+        assert raw, "the inbox must request bytes"
         return (self.waiting.pop(0), None) if self.waiting else None
 
 
@@ -41,12 +41,12 @@ def trajectories():
     return Topic(JointTrajectory, most_bytes=MOST_BYTES, why_not=why_too_large)
 
 
-def test_a_sound_message_is_heard():
+def test_a_valid_message_reaches_the_callback():
     topic = Topic(Twist)
     command = Twist()
     command.linear.x = 0.2
     topic.inbox.process(serialize_message(command))
-    assert topic.heard == [command]
+    assert topic.received == [command]
     topic.inbox.report()
     assert topic.reports == []
 
@@ -56,7 +56,7 @@ def test_a_message_that_ends_too_soon_is_refused(size):
     topic = Topic(Twist)
     topic.inbox.process(serialize_message(Twist())[:size])
     topic.inbox.report()
-    assert topic.heard == []
+    assert topic.received == []
     assert topic.reports == [("/robot/topic", 1, size, 64, "malformed")]
 
 
@@ -64,15 +64,15 @@ def test_a_message_of_fixed_length_that_is_longer_is_refused():
     topic = Topic(Twist)
     topic.inbox.process(serialize_message(Twist()) + bytes(1000))
     topic.inbox.report()
-    assert topic.heard == []
+    assert topic.received == []
     assert topic.reports == [("/robot/topic", 1, 1052, 64, "more than 64 bytes")]
 
 
 @pytest.mark.parametrize("points", [0, 1, MOST_POINTS])
-def test_every_trajectory_with_as_many_points_as_it_may_have_is_heard(points):
+def test_every_trajectory_within_the_limit_of_points_reaches_the_callback(points):
     topic = trajectories()
     topic.inbox.process(trajectory(points, full=True))
-    assert [len(message.points) for message in topic.heard] == [points]
+    assert [len(message.points) for message in topic.received] == [points]
 
 
 def test_a_trajectory_with_more_points_is_refused_however_short_they_are():
@@ -80,7 +80,7 @@ def test_a_trajectory_with_more_points_is_refused_however_short_they_are():
     topic.inbox.process(trajectory(MOST_POINTS + 1, joints=()))
     topic.inbox.process(trajectory(30_000))
     topic.inbox.report()
-    assert topic.heard == []
+    assert topic.received == []
     assert [(count, reason) for _, count, *_, reason in topic.reports] == [
         (1, "more than 500 points"),
         (1, f"more than {MOST_BYTES} bytes"),
@@ -91,7 +91,7 @@ def test_a_trajectory_with_thousands_of_joints_is_refused():
     topic = trajectories()
     topic.inbox.process(trajectory(0, joints=[""] * 20_000))
     topic.inbox.report()
-    assert topic.heard == []
+    assert topic.received == []
     assert topic.reports[0][-1] == "more than 64 joints"
 
 
@@ -107,29 +107,29 @@ def test_lengths_are_read_from_bytes():
         count_joints_and_points(data[:12] + struct.pack("<I", 0xFFFFFFFF) + data[16:])
 
 
-def test_of_a_flood_so_many_a_second_are_heard_and_the_newest_wait():
+def test_a_flood_is_limited_to_a_rate_and_the_newest_messages_wait():
     topic = Topic(Twist)
     for tick in range(100):  # 2 s in looks of 20 ms
         topic.waiting += [serialize_message(Twist())] * 30
-        topic.waiting = topic.waiting[-10:]  # as a history of depth 10 does
+        topic.waiting = topic.waiting[-10:]  # as a history of depth 10 keeps them
         topic.inbox.process_arrived(0.02 * tick)
-    assert len(topic.heard) == pytest.approx(3 * MESSAGES_A_SECOND, abs=5)  # 1 s worth at first, then 2 s
+    assert len(topic.received) == pytest.approx(3 * MESSAGES_A_SECOND, abs=5)  # 1 s worth at first, then 2 s
     topic.inbox.report()
     assert topic.reports[-1][1] > 50
     assert {reason for *_, reason in topic.reports} == {FLOOD}
     assert len(topic.reports) < 12, "a few reports a second"
 
 
-def test_a_fast_node_is_no_flood():
+def test_a_fast_publisher_does_not_count_as_a_flood():
     topic = Topic(Twist)
     for tick in range(500):
         topic.waiting += [serialize_message(Twist())] * 2  # 100 Hz
         topic.inbox.process_arrived(0.02 * tick)
-    assert len(topic.heard) == 1000
+    assert len(topic.received) == 1000
     assert topic.reports == []
 
 
-def test_of_refused_giants_few_a_second_are_even_taken():
+def test_too_large_messages_are_taken_at_a_limited_rate():
     topic, giant = trajectories(), bytes(5_000_000)
     for tick in range(500):  # 10 s
         topic.waiting = [giant] * 10
@@ -140,18 +140,18 @@ def test_of_refused_giants_few_a_second_are_even_taken():
     assert taken <= 12
     topic.waiting = [trajectory(5)]
     topic.inbox.process_arrived(12.0)
-    assert len(topic.heard) == 1, "a sound one is heard after it"
+    assert len(topic.received) == 1, "a sound one is received after it"
 
 
-def test_hearing_goes_on_when_time_goes_back():
+def test_messages_are_processed_after_time_has_gone_back():
     topic = Topic(Twist)
     topic.inbox.process_arrived(100.0)
     topic.waiting = [serialize_message(Twist())]
     topic.inbox.process_arrived(0.0)
-    assert len(topic.heard) == 1
+    assert len(topic.received) == 1
 
 
-def test_what_is_refused_is_an_event_of_the_truth(tmp_path):
+def test_a_refused_message_is_written_to_the_ground_truth(tmp_path):
     with open(tmp_path / "truth", "w+b") as file:
         GroundTruthWriter(file.fileno()).refused("/robot/cmd_vel", 7, 4000, 64, "malformed")
         file.seek(0)

@@ -1,4 +1,4 @@
-"""What nobody subscribes to is not computed: hands, objects and feet are read for subscribers only."""
+"""Topics without subscribers are not computed: hands, objects and feet are read only for subscribers."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Topic:
 
 
 class CountingRobot:
-    """Stands for the node and for the robot, of which it counts each reading."""
+    """Stands for the node and the robot, and counts how often each part of the robot is read."""
 
     def __init__(self) -> None:
         self.readings: Counter[str] = Counter()

@@ -1,4 +1,4 @@
-"""What the simulator tells a scenario of an arm, by a pipe, when it is asked."""
+"""The position of an arm that the simulator reports by a pipe when a scenario requests it."""
 
 import json
 import math
@@ -15,7 +15,7 @@ STRAIGHT = ("shoulder_roll", "shoulder_yaw", "wrist_yaw", "wrist_pitch", "wrist_
 
 
 def arm_after(command, side):
-    """What is reported of an arm once the robot has obeyed a command and come to rest."""
+    """The report about an arm after the robot has executed a command and come to rest."""
     read_end, write_end = os.pipe()
     humanoid, truth = Humanoid(), GroundTruthWriter(write_end)
     apply_command(command, humanoid, None, truth)
@@ -42,7 +42,7 @@ def test_an_arm_is_reported_from_its_shoulder_with_x_ahead_and_z_up(side, pitch,
     positions |= {f"{side}_shoulder_pitch": pitch, f"{side}_elbow": bend}
     arm = arm_after({"do": "move_joints", "positions": positions, "duration": 1.0}, side)
     assert (arm["kind"], arm["side"]) == ("arm_reported", side)
-    # The elbow stops 0.02 rad before its end at 0, which is 6 mm at the hand.
+    # The elbow stops 0.02 rad before the end of its range at 0, which moves the hand by 6 mm.
     assert arm["elbow"] == pytest.approx(elbow, abs=0.007)
     assert arm["hand"] == pytest.approx(hand, abs=0.007)
 

@@ -61,7 +61,7 @@ def test_velocities_at_a_waypoint_are_honoured(humanoid):
     assert joint(humanoid, ELBOW) == pytest.approx((start - 1.0, 0.0), abs=0.01)
 
 
-def test_without_velocities_the_way_is_straight(humanoid):
+def test_without_velocities_the_path_is_linear(humanoid):
     start, _ = joint(humanoid, ELBOW)
     humanoid.move_joints(to(start - 1.0, 2.0))
     simulate(humanoid, 0.5)
@@ -140,7 +140,7 @@ def test_both_arms_may_swing_while_it_walks(humanoid):
         ((ELBOW,), (Waypoint(-1.0, (0.0,)),), "must not be negative"),
     ],
 )
-def test_a_trajectory_without_sense_is_refused(joints, waypoints, message):
+def test_an_invalid_trajectory_is_refused(joints, waypoints, message):
     with pytest.raises(ValueError, match=message):
         JointTrajectory(joints, waypoints)
 
@@ -189,7 +189,7 @@ def test_a_reach_to_infinity_is_refused(humanoid):
 
 
 @pytest.mark.parametrize(("asked", "got"), [(0.05, 0.05), (0.2, 0.09), (-1.0, 0.0)])
-def test_a_hand_opens_as_far_as_asked(humanoid, asked, got):
+def test_a_hand_opens_as_far_as_commanded(humanoid, asked, got):
     humanoid.open_hand(Side.LEFT, asked)
     simulate(humanoid, 1.0)
     assert humanoid.hands[Side.LEFT].opening == pytest.approx(got, abs=2e-3)
@@ -202,7 +202,7 @@ def test_it_grasps_the_cup_and_puts_it_down():
     assert run.values["error_m"] < 0.01
 
 
-def test_the_force_sensor_overlooks_a_jerk_but_not_a_loss():
+def test_the_force_sensor_filters_a_jerk_but_detects_a_lost_object():
     robot = Humanoid("table")
     simulate(robot, 0.3)
     grasp, hand = Grasp(robot), robot.hands[Side.RIGHT]

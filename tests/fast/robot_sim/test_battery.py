@@ -1,4 +1,4 @@
-"""What the robot's work costs."""
+"""The consumption of the robot's battery."""
 
 from __future__ import annotations
 

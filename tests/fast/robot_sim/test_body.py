@@ -1,4 +1,4 @@
-"""Crouching, rising, and how stiffly the body is held."""
+"""Crouching, rising, and the gains of the balance controller."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def height(humanoid: Humanoid) -> float:
     return float(humanoid.base_pose().position[2])
 
 
-def test_it_crouches_and_rises_as_fast_as_asked(humanoid):
+def test_it_crouches_and_rises_at_the_commanded_rate(humanoid):
     humanoid.move_body(-0.05)
     simulate(humanoid, 1.0)
     assert height(humanoid) == pytest.approx(STANCE - 0.05, abs=0.01)
@@ -48,7 +48,7 @@ def test_a_crouch_is_held_against_a_push(humanoid):
     assert height(humanoid) == pytest.approx(CROUCH, abs=0.01)
 
 
-def test_told_to_walk_it_rises_first(humanoid):
+def test_a_crouching_robot_rises_before_it_walks(humanoid):
     humanoid.reset(height=CROUCH)
     humanoid.walk_to(0.4, 0.0, 0.0)
     simulate(humanoid, 0.5)
@@ -81,7 +81,7 @@ def test_a_rate_that_is_not_finite_is_refused(humanoid):
 
 
 @pytest.mark.parametrize("share", [0.5, 2.0, 8.0])
-def test_sensible_gains_keep_it_up(humanoid, share):
+def test_suitable_gains_keep_the_robot_upright(humanoid, share):
     humanoid.balance_gains = scaled(humanoid.balance_gains, share)
     humanoid.push((0.0, 8.0, 0.0))
     simulate(humanoid, 3.0)
@@ -113,7 +113,7 @@ def test_weaker_gains_let_it_lean_further(humanoid):
     assert lean(0.25) > 1.5 * lean(1.0) > 1.5 * lean(4.0)
 
 
-def test_reset_brings_the_gains_back(humanoid):
+def test_reset_restores_the_gains(humanoid):
     before = humanoid.balance_gains
     humanoid.balance_gains = scaled(before, 2.0)
     humanoid.reset()
@@ -128,7 +128,7 @@ def test_reset_brings_the_gains_back(humanoid):
         ({"max_torque": 0.0}, "max_torque is 0"),
     ],
 )
-def test_gains_without_sense_are_refused(humanoid, fault, message):
+def test_invalid_gains_are_refused(humanoid, fault, message):
     with pytest.raises(ValueError, match=message):
         replace(humanoid.balance_gains, **fault)
 

@@ -9,7 +9,7 @@ from robot_sim.humanoid import Humanoid
 
 
 def eventful_run(humanoid: Humanoid, read_sensors: bool = False) -> tuple:
-    """Walk, be pushed, stop; then everything the robot tells about itself."""
+    """Walk, get a push, stop; then return the robot's whole state."""
     humanoid.walk_velocity(0.3, 0.05, 0.2)
     for _ in range(30):
         simulate(humanoid, 0.05)

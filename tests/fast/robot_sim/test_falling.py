@@ -37,7 +37,7 @@ def test_a_push_moves_it_by_its_impulse(humanoid):
     assert momentum == pytest.approx([0.0, 0.0, 19.0], abs=0.5)
 
 
-def test_a_huge_push_makes_it_fall_for_good(humanoid):
+def test_after_a_fall_it_stays_down(humanoid):
     humanoid.push((80.0, 20.0, 0.0))
     simulate(humanoid, 2.0, until=lambda: humanoid.mode is Mode.FALLEN)
     for _ in range(200):
@@ -54,7 +54,7 @@ def test_a_huge_push_makes_it_fall_for_good(humanoid):
     assert not humanoid.motors_enabled
 
 
-def test_without_power_it_goes_limp_and_falls(humanoid):
+def test_without_motor_power_it_collapses_and_falls(humanoid):
     humanoid.set_motor_power(False)
     humanoid.step()
     assert humanoid.mode is Mode.OFF
@@ -105,6 +105,6 @@ def test_commands_without_power_are_ignored(humanoid):
         ((1.0, 0.0, 0.0), 0.0, "more than 0 s"),
     ],
 )
-def test_a_push_without_sense_is_refused(humanoid, impulse, duration, message):
+def test_an_invalid_push_is_refused(humanoid, impulse, duration, message):
     with pytest.raises(ValueError, match=message):
         humanoid.push(impulse, duration)

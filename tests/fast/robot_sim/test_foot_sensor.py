@@ -1,4 +1,4 @@
-"""What the feet feel: together they carry the robot, and the one that stands carries most."""
+"""The forces on the feet: together they are the robot's weight, and the stance foot has most of it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from robot_sim.state import Mode
 
 
 def loads(humanoid: Humanoid) -> list[float]:
-    """What left and right foot carry, N."""
+    """The loads on the left and the right foot, N."""
     return [humanoid.feet[side].read().force[2] for side in SIDES]
 
 
@@ -49,7 +49,7 @@ def test_a_walking_robot_stands_on_one_foot_at_a_time(humanoid):
     assert any(right == 0.0 and left > 200.0 for left, right in seen)
 
 
-def test_the_load_is_what_the_touch_sensor_of_the_sole_feels(humanoid):
+def test_the_load_equals_that_of_the_soles_touch_sensor(humanoid):
     humanoid.push((6.0, 8.0, 0.0))
     for _ in range(30):
         simulate(humanoid, 0.02)
@@ -57,7 +57,7 @@ def test_the_load_is_what_the_touch_sensor_of_the_sole_feels(humanoid):
         assert loads(humanoid) == pytest.approx(touch, rel=0.02, abs=1.0)
 
 
-def test_a_push_from_the_left_loads_the_right_foot_and_is_felt_sideways(humanoid):
+def test_a_push_from_the_left_loads_the_right_foot_and_causes_a_lateral_force(humanoid):
     humanoid.push((0.0, -6.0, 0.0))
     simulate(humanoid, 0.06)
     left, right = (humanoid.feet[side].read() for side in SIDES)
@@ -65,7 +65,7 @@ def test_a_push_from_the_left_loads_the_right_foot_and_is_felt_sideways(humanoid
     assert (left.force + right.force)[1] > 5.0, "the floor pushes back, to the left"
 
 
-def test_a_foot_in_the_air_feels_nothing():
+def test_a_foot_in_the_air_has_no_load():
     humanoid = Humanoid("stand")
     humanoid.data.qpos[2] += 0.3
     simulate(humanoid, 0.01)

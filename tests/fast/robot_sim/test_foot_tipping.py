@@ -27,7 +27,7 @@ def test_a_sole_that_lies_on_the_floor_is_left_alone(lean):
     assert shift(lean, spin=(1.0, 1.0, 0.0)) == (0.0, 0.0)
 
 
-def test_the_cop_goes_to_the_side_that_has_come_up():
+def test_the_cop_moves_to_the_raised_side():
     x, y = shift((0.1, 0.0))  # toes down, heel up
     assert x == pytest.approx(-0.05)
     assert y == pytest.approx(0.0)
@@ -35,24 +35,24 @@ def test_the_cop_goes_to_the_side_that_has_come_up():
     assert (x, y) == (pytest.approx(0.0), pytest.approx(0.05))
 
 
-def test_a_sole_that_tips_on_is_answered_more_strongly():
+def test_a_sole_that_keeps_tipping_gets_a_larger_shift():
     falling, returning = shift((0.1, 0.0), spin=(0.0, 0.5, 0.0)), shift((0.1, 0.0), spin=(0.0, -0.5, 0.0))
     assert falling[0] < shift((0.1, 0.0))[0] < returning[0]
 
 
 def test_a_sole_on_a_slope_does_not_tip():
-    """A floor that rises ahead lets the normal lean back."""
+    """On a floor that rises ahead, the normal leans back."""
     assert shift((-0.08, 0.0), slope=(0.08, 0.0)) == (0.0, 0.0)
 
 
-def test_the_slope_is_believed_slowly_and_within_reason():
+def test_the_slope_estimate_is_filtered_and_bounded():
     slope = FloorSlope(0.005)
     for _ in range(4):
-        slope.feel(leaning(-0.06, 0.0))
+        slope.update(leaning(-0.06, 0.0))
     assert slope.estimate() == (0.0, 0.0)
     for _ in range(400):
-        slope.feel(leaning(-0.06, 0.0))
+        slope.update(leaning(-0.06, 0.0))
     assert slope.estimate() == (pytest.approx(0.06, rel=0.01), pytest.approx(0.0))
     for _ in range(400):
-        slope.feel(leaning(-0.3, -0.3))
+        slope.update(leaning(-0.3, -0.3))
     assert math.hypot(*slope.estimate()) == pytest.approx(0.09)

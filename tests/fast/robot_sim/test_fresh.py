@@ -1,4 +1,4 @@
-"""A robot that was used and reset, or that was built before a fork, is bit for bit a fresh one."""
+"""A robot that was used and reset, or built before a fork, behaves bit for bit like a new one."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SCENES = ("flat", "stand")
 
 
 def trace(humanoid: Humanoid) -> str:
-    """Everything that can be measured of three seconds of standing, walking and moving an arm, as a digest."""
+    """A digest of all states during three seconds of standing, walking and moving an arm."""
     seen = hashlib.sha256()
     for tick in range(600):
         if tick == 200:
@@ -35,7 +35,7 @@ def trace(humanoid: Humanoid) -> str:
 
 
 def use(humanoid: Humanoid) -> None:
-    """Leave nothing as it was."""
+    """Change all parts of the robot's state."""
     humanoid.walk_velocity(0.2, 0.0, 0.4)
     humanoid.push((20.0, 10.0, 0.0), duration=0.5)
     humanoid.move_body(-0.1)
@@ -55,7 +55,7 @@ def test_a_used_robot_that_is_reset_is_a_fresh_one(scene):
     assert trace(again) == trace(Humanoid(scene, seed=4))
 
 
-def test_a_robot_of_another_scene_is_not_taken():
+def test_a_robot_of_another_scene_is_not_reused():
     assert build_humanoid(RobotOptions(scene="stand"), Humanoid("flat")).scene == "stand"
 
 

@@ -1,4 +1,4 @@
-"""Crouching and standing up in phases, each of which ends on what is measured."""
+"""Crouching and standing up in phases, each of which ends by a measurement."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def test_progress_never_falls_back_and_the_speed_limit_holds(humanoid):
     assert max(speeds[100:]) < 1.05 * FASTEST
 
 
-def test_it_does_not_set_out_before_its_weight_is_even():
+def test_it_does_not_start_before_its_weight_is_even():
     def when_it_sets_out(impulse: float) -> float:
         humanoid = Humanoid()
         humanoid.reset(height=CROUCH)
@@ -79,7 +79,7 @@ def test_it_does_not_set_out_before_its_weight_is_even():
     assert when_it_sets_out(8.0) > when_it_sets_out(0.0) + 0.1
 
 
-def test_a_push_under_way_takes_it_back_to_shifting(humanoid):
+def test_a_push_during_the_motion_returns_it_to_shifting(humanoid):
     humanoid.reset(height=CROUCH)
     change = humanoid.stand_up()
     until_phase(humanoid, change, "rising")
@@ -88,11 +88,11 @@ def test_a_push_under_way_takes_it_back_to_shifting(humanoid):
     assert height(humanoid) == pytest.approx(STANCE, abs=0.005)
 
 
-def test_who_stands_is_done_at_once(humanoid):
+def test_a_standing_robot_is_done_at_once(humanoid):
     assert phases_of(humanoid, humanoid.stand_up()) == ["shifting", "settling", "done"]
 
 
-def test_a_fall_is_told(humanoid):
+def test_a_fall_is_reported(humanoid):
     humanoid.reset(height=CROUCH)
     change = humanoid.stand_up()
     until_phase(humanoid, change, "rising")
@@ -103,12 +103,12 @@ def test_a_fall_is_told(humanoid):
     assert change.percent_complete < 100
 
 
-def test_a_phase_that_cannot_end_is_told(humanoid):
+def test_a_phase_that_cannot_end_is_reported(humanoid):
     humanoid.reset(height=CROUCH)
     change = humanoid.stand_up()
     until_phase(humanoid, change, "rising")
     for _ in range(150):
-        humanoid.push((4.0, 0.0, 0.0))  # leaned on: 40 N without end
+        humanoid.push((4.0, 0.0, 0.0))  # a lateral force of 40 N that does not end
         simulate(humanoid, 0.1)
     assert change.phase.value == "failed"
     assert "not done within 12 s (" in change.problem
@@ -120,11 +120,11 @@ def test_a_phase_that_cannot_end_is_told(humanoid):
     [
         (lambda robot: robot.move_body(0.0), "another command came"),
         (lambda robot: robot.crouch_to(0.5), "another command came"),
-        (lambda robot: robot.walk_to(0.5, 0.0, 0.0), "it was told to walk"),
+        (lambda robot: robot.walk_to(0.5, 0.0, 0.0), "a command to walk came"),
         (lambda robot: robot.set_motor_power(False), "the motors went off"),
     ],
 )
-def test_what_ends_it_is_told(humanoid, command, reason):
+def test_the_reason_of_an_interruption_is_reported(humanoid, command, reason):
     change = humanoid.crouch_to(CROUCH)
     until_phase(humanoid, change, "lowering")
     command(humanoid)

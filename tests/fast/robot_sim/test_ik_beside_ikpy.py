@@ -1,4 +1,4 @@
-"""The arms' inverse kinematics beside that of another library, ikpy, which knows nothing of MuJoCo.
+"""The arms' inverse kinematics, compared with that of another library, ikpy, which does not use MuJoCo.
 
 ikpy brings SciPy and SymPy, so the environment leaves it out: CONTRIBUTING.md says under "Measure" how to add it.
 """
@@ -39,7 +39,7 @@ def kinematics(humanoid: Humanoid) -> ArmInverseKinematics:
 
 
 def chain_of(humanoid: Humanoid, side: Side, with_waist: bool) -> Chain:
-    """The arm from base_link to the grip point, as ikpy describes it; a waist that may not turn is at 0."""
+    """The chain from base_link to the grip point for ikpy; a waist that may not turn stays at 0."""
     model, links = humanoid.model, [OriginLink()]
     joints = (WAIST[0], *arm_joints(side))
     for name in joints:
@@ -60,13 +60,13 @@ def chain_of(humanoid: Humanoid, side: Side, with_waist: bool) -> Chain:
 
 
 def hand_in(chain: Chain, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Position and rotation of a hand, x along the fingers, where ikpy sees it."""
+    """Position and rotation of a hand, x along the fingers, computed by ikpy."""
     frame = chain.forward_kinematics(positions)
     x, y, z = frame[:3, :3].T
     return frame[:3, 3], np.column_stack((-z, y, x))
 
 
-def test_ikpy_sees_the_hand_where_the_solver_was_asked_to_put_it(humanoid, kinematics):
+def test_ikpy_computes_the_goal_from_the_solvers_angles(humanoid, kinematics):
     for known in known_goals():
         if not known.reachable:
             continue
@@ -80,7 +80,7 @@ def test_ikpy_sees_the_hand_where_the_solver_was_asked_to_put_it(humanoid, kinem
 
 
 @pytest.mark.parametrize("with_waist", [False, True])
-def test_what_ikpy_reaches_is_reached(humanoid, kinematics, with_waist):
+def test_goals_that_ikpy_reaches_are_reached(humanoid, kinematics, with_waist):
     chance = random.Random(4)
     by_both, missed = 0, []
     for number in range(PLACES):
@@ -95,14 +95,14 @@ def test_what_ikpy_reaches_is_reached(humanoid, kinematics, with_waist):
         reason = why_not(kinematics, humanoid, side, HandGoal(place, with_waist=with_waist))
         if not reason:
             by_both += 1
-        elif "own body" not in reason:  # which ikpy does not know
+        elif "own body" not in reason:  # ikpy does not check for self-collision
             missed.append((side.letter, place.tolist(), reason))
     assert missed == []
     assert by_both > PLACES / 4, "there was something to compare"
 
 
 def why_not(kinematics: ArmInverseKinematics, humanoid: Humanoid, side: Side, goal: HandGoal) -> str:
-    """Why a goal is refused; "" if it is not."""
+    """The reason why a goal is refused; "" if it is accepted."""
     try:
         kinematics.solve(humanoid.data, side, goal)
     except Unreachable as error:

@@ -1,4 +1,4 @@
-"""The inertial sensor has errors, and three seconds of standing still are enough to find the lasting ones."""
+"""The inertial sensor has errors, and three seconds of standing are enough to find its biases."""
 
 from __future__ import annotations
 

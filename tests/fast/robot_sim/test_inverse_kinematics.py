@@ -1,4 +1,4 @@
-"""Joint angles for poses of the hands: what is found is right, and what is out of reach is refused."""
+"""Joint angles for poses of the hands: solutions are correct, and unreachable poses are refused."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ BACKWARDS = np.diag([-1.0, -1.0, 1.0])  # fingers towards the robot
 
 @pytest.fixture(scope="module")
 def humanoid() -> Humanoid:
-    """A robot that stands anywhere, and looks anywhere."""
+    """A robot away from the origin, with a heading other than 0."""
     robot = Humanoid()
     robot.reset(1.3, -0.4, 2.0)
     simulate(robot, 0.5)
@@ -47,7 +47,7 @@ def posed(posture: ArmPosture, side: Side) -> tuple[np.ndarray, np.ndarray]:
 
 
 def misses(known: KnownGoal, kinematics: ArmInverseKinematics, humanoid: Humanoid) -> str:
-    """What is wrong with the answer for a goal, or ""."""
+    """The fault of the solution for a goal, or ""."""
     try:
         posture = kinematics.solve(humanoid.data, known.side, known.goal)
     except Unreachable as error:
@@ -100,7 +100,7 @@ def test_a_waist_that_may_not_turn_is_taken_as_it_stands(kinematics):
     assert posed(waist, Side.RIGHT)[0] == pytest.approx(ACROSS, abs=2e-3)
 
 
-def test_the_same_question_has_the_same_answer_and_moves_nothing(kinematics, humanoid):
+def test_the_same_goal_has_the_same_solution_and_moves_nothing(kinematics, humanoid):
     before = humanoid.data.qpos.copy()
     first, second = (kinematics.solve(humanoid.data, Side.RIGHT, HandGoal(AHEAD)) for _ in range(2))
     assert first == second
@@ -115,7 +115,7 @@ def test_the_same_question_has_the_same_answer_and_moves_nothing(kinematics, hum
         ((0.4, -0.2, 0.3), BACKWARDS, "the closest posture found leaves the hand 0.* m and .* rad away"),
     ],
 )
-def test_what_is_out_of_reach_is_refused_with_the_reason(kinematics, humanoid, position, rotation, reason):
+def test_an_unreachable_goal_is_refused_with_the_reason(kinematics, humanoid, position, rotation, reason):
     with pytest.raises(Unreachable, match=reason):
         kinematics.solve(humanoid.data, Side.RIGHT, HandGoal(np.array(position), rotation))
 
@@ -135,7 +135,7 @@ def test_a_hand_that_points_ahead_has_the_axes_of_base_link(kinematics, side):
     assert (pads[0] - pads[1])[1] > 0, "finger 1 is on the left"
 
 
-def test_a_body_that_keeps_its_balance_gives_way_by_centimetres(kinematics):
+def test_a_balancing_body_moves_by_centimetres(kinematics):
     robot = Humanoid()
     simulate(robot, 0.5)
     goal = HandGoal(AHEAD)

@@ -1,4 +1,4 @@
-"""A scenario holds a joint against its motor, and asks where joints are."""
+"""A scenario holds a joint against its motor, and requests joint positions."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def test_a_robot_with_a_held_joint_does_not_rest() -> None:
     assert humanoid.is_resting
 
 
-def test_a_reset_lets_go() -> None:
+def test_a_reset_releases_held_joints() -> None:
     humanoid = Humanoid()
     humanoid.hold_joint(HELD)
     humanoid.step()
@@ -79,7 +79,7 @@ def test_legs_and_fingers_are_not_held() -> None:
         humanoid.hold_joint(HELD, 0)
 
 
-def test_the_joints_asked_for_are_told_with_each_state_of_the_robot() -> None:
+def test_the_requested_joints_are_reported_with_each_state_of_the_robot() -> None:
     read_end, write_end = os.pipe()
     humanoid, truth = Humanoid(), GroundTruthWriter(write_end)
     truth.robot(humanoid, 0.0)
@@ -87,8 +87,8 @@ def test_the_joints_asked_for_are_told_with_each_state_of_the_robot() -> None:
     truth.robot(humanoid, 0.0)
     os.close(write_end)
     with os.fdopen(read_end) as pipe:
-        told = [json.loads(line) for line in pipe]
-    assert [line["kind"] for line in told] == ["robot_truth", "joints_truth", "robot_truth", "joints_truth"]
+        events = [json.loads(line) for line in pipe]
+    assert [line["kind"] for line in events] == ["robot_truth", "joints_truth", "robot_truth", "joints_truth"]
     there = {joint: place(humanoid, joint) for joint in (HELD, "r_wrist_roll")}
-    assert told[-1]["positions"] == pytest.approx(there, abs=1e-4)
-    assert set(told[-1]["velocities"]) == {HELD, "r_wrist_roll"}
+    assert events[-1]["positions"] == pytest.approx(there, abs=1e-4)
+    assert set(events[-1]["velocities"]) == {HELD, "r_wrist_roll"}

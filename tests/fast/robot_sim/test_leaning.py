@@ -1,4 +1,4 @@
-"""A scenario leans on the robot, lowers it, and asks what its feet carry."""
+"""A scenario applies a lateral force to the robot, lowers it, and requests the loads on its feet."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ FORCE = 20.0  # N
 
 
 def loads(humanoid: Humanoid) -> list[dict]:
-    """What the ground truth tells of the feet, once asked and then with the robot's state."""
+    """The loads in the ground truth: one at the request, and one with the robot's next state."""
     read_end, write_end = os.pipe()
     truth = GroundTruthWriter(write_end)
     truth.robot(humanoid, 0.0)
@@ -26,12 +26,12 @@ def loads(humanoid: Humanoid) -> list[dict]:
     truth.robot(humanoid, 0.0)
     os.close(write_end)
     with os.fdopen(read_end) as pipe:
-        told = [json.loads(line) for line in pipe]
-    assert [line["kind"] for line in told] == ["robot_truth", "feet_truth", "robot_truth", "feet_truth"]
-    return [line for line in told if line["kind"] == "feet_truth"]
+        events = [json.loads(line) for line in pipe]
+    assert [line["kind"] for line in events] == ["robot_truth", "feet_truth", "robot_truth", "feet_truth"]
+    return [line for line in events if line["kind"] == "feet_truth"]
 
 
-def test_the_feet_that_were_asked_about_are_told_with_each_state_of_the_robot() -> None:
+def test_the_requested_feet_are_reported_with_each_state_of_the_robot() -> None:
     humanoid = Humanoid()
     simulate(humanoid, 1.0)
     for sample in loads(humanoid):
@@ -41,9 +41,7 @@ def test_the_feet_that_were_asked_about_are_told_with_each_state_of_the_robot() 
 
 @pytest.mark.parametrize("side", [-1, 1])
 @pytest.mark.parametrize("height", [CROUCH, STANCE])
-def test_a_robot_that_is_leaned_on_stands_on_both_feet_unevenly_until_it_is_let_go(
-    side: int, height: float
-) -> None:
+def test_a_lateral_force_loads_the_feet_unevenly_until_it_ends(side: int, height: float) -> None:
     humanoid = Humanoid()
     humanoid.reset(height=height)
     simulate(humanoid, 1.0)
@@ -61,7 +59,7 @@ def test_a_robot_that_is_leaned_on_stands_on_both_feet_unevenly_until_it_is_let_
     assert (humanoid.mode, humanoid.steps) == (Mode.STANDING, 0)
 
 
-def test_a_scenario_lowers_the_robot_until_told_otherwise() -> None:
+def test_a_scenario_lowers_the_robot_until_the_next_command() -> None:
     humanoid = Humanoid()
     apply_command({"do": "move_body", "rate": -0.1}, humanoid, None)
     assert simulate(humanoid, 2.0, until=lambda: humanoid.base_pose().position[2] < 0.53)

@@ -48,7 +48,7 @@ def test_a_viewer_that_opens_a_scenes_file_shows_the_robot_of_the_simulator(mode
 
 
 def test_both_sides_have_the_same_parts(model):
-    """What stands twice in the file must be changed twice."""
+    """The file describes both sides separately, so a change must be made twice."""
     for left in (model.body(index) for index in range(model.nbody)):
         if left.name.startswith("l_"):
             right = model.body(f"r_{left.name[2:]}")

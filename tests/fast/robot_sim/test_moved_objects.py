@@ -1,4 +1,4 @@
-"""A scenario takes the cup away, and asks where hand and cup are."""
+"""A scenario removes the cup, and requests the positions of hand and cup."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from robot_sim.ros.scenario_control import apply_command
 ON_THE_TABLE = 0.755  # m
 
 
-def test_an_object_is_put_elsewhere_upright_and_at_rest() -> None:
+def test_an_object_is_moved_upright_and_at_rest() -> None:
     humanoid = Humanoid("table")
     simulate(humanoid, 0.2)
     apply_command({"do": "move_object", "name": "cup", "position": [0.5, 0.3, ON_THE_TABLE]}, humanoid, None)
@@ -49,7 +49,7 @@ def test_what_cannot_be_moved_is_refused(scene: str, name: str, position: tuple,
         Humanoid(scene).move_object(name, position)
 
 
-def test_hand_and_object_are_told_with_each_state_of_the_robot() -> None:
+def test_hand_and_object_are_reported_with_each_state_of_the_robot() -> None:
     read_end, write_end = os.pipe()
     humanoid, truth = Humanoid("table"), GroundTruthWriter(write_end)
     simulate(humanoid, 0.2)
@@ -58,12 +58,12 @@ def test_hand_and_object_are_told_with_each_state_of_the_robot() -> None:
     truth.robot(humanoid, 0.0)
     os.close(write_end)
     with os.fdopen(read_end) as pipe:
-        told = [json.loads(line) for line in pipe]
-    assert [line["kind"] for line in told] == [
+        events = [json.loads(line) for line in pipe]
+    assert [line["kind"] for line in events] == [
         *("hand_truth", "object_truth"),
         *("robot_truth", "hand_truth", "object_truth"),
     ]
-    hand, cup = told[-2:]
+    hand, cup = events[-2:]
     assert hand["side"] == "r"
     assert hand["position"][1] < -0.15
     assert hand["opening"] == pytest.approx(0.0, abs=0.01)

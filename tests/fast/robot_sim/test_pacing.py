@@ -1,4 +1,4 @@
-"""A simulation that was held up says for how long."""
+"""A delayed simulation reports its lag."""
 
 import pytest
 
@@ -12,7 +12,7 @@ def clock(monkeypatch):
     return now
 
 
-def test_a_lag_that_is_let_go_of_is_still_told(clock):
+def test_a_dropped_lag_is_still_reported(clock):
     pacing = Pacing()
     pacing.restart(5.0)
     clock[0] += 3.0

@@ -1,4 +1,4 @@
-"""A robot that rests is not integrated, and nothing that it tells shows that."""
+"""The physics of a resting robot is not integrated, and its published state does not show that."""
 
 import math
 
@@ -21,7 +21,7 @@ def standing(scene="flat", may_rest=True, seed=3):
 
 
 def rests(humanoid):
-    """Whether a step leaves everything but the time as it was, to the last bit."""
+    """Whether a step changes nothing but the time, to the last bit."""
 
     def state():
         data = humanoid.data
@@ -34,7 +34,7 @@ def rests(humanoid):
 
 
 def told(humanoid):
-    """Everything that messages are made of, battery and time excepted."""
+    """The state from which messages are made, without battery and time."""
     pose, velocity, joints = humanoid.base_pose(), humanoid.base_velocity(), humanoid.joint_state()
     return np.concatenate(
         [
@@ -46,7 +46,7 @@ def told(humanoid):
 
 
 @pytest.mark.parametrize("scene", ["flat", "stand"])
-def test_for_a_minute_a_resting_robot_tells_what_an_integrated_one_does(scene):
+def test_for_a_minute_a_resting_robot_has_the_same_state_as_an_integrated_one(scene):
     resting, integrated = standing(scene), standing(scene, may_rest=False)
     for _ in range(640):  # 64 s
         simulate(resting, 0.1)
@@ -70,7 +70,7 @@ def test_for_a_minute_a_resting_robot_tells_what_an_integrated_one_does(scene):
     assert drained > 1e-4
 
 
-def test_what_was_measured_differs_from_one_reading_to_the_next():
+def test_each_reading_of_the_sensors_has_new_noise():
     humanoid = standing()
     simulate(humanoid, SETTLED)
     first = humanoid.imu()
@@ -79,7 +79,7 @@ def test_what_was_measured_differs_from_one_reading_to_the_next():
     assert not np.array_equal(first.angular_velocity, humanoid.imu().angular_velocity)
 
 
-def test_a_robot_that_was_not_told_that_it_may_rest_does_not():
+def test_a_robot_that_may_not_rest_does_not_rest():
     humanoid = standing(may_rest=False)
     simulate(humanoid, SETTLED)
     assert not rests(humanoid)
@@ -148,7 +148,7 @@ def test_it_rests_again_after_a_walk():
     assert math.isfinite(humanoid.battery.current)
 
 
-def test_a_resting_robot_whose_battery_runs_empty_goes_limp():
+def test_a_resting_robot_with_an_empty_battery_collapses():
     humanoid = standing()
     simulate(humanoid, SETTLED)
     humanoid.battery.set_percentage(1e-5)

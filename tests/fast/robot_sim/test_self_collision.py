@@ -1,4 +1,4 @@
-"""Arms do not pass through the body or through each other."""
+"""Arms collide with the body and with each other."""
 
 from __future__ import annotations
 

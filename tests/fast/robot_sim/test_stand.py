@@ -20,12 +20,12 @@ def positions(humanoid: Humanoid) -> list[float]:
     return humanoid.joint_state().position.tolist()
 
 
-def test_it_stands_there_as_on_the_floor(humanoid):
+def test_on_the_stand_it_stands_as_high_as_on_the_floor(humanoid):
     assert humanoid.mode is Mode.STANDING
     assert humanoid.base_pose().position[2] == pytest.approx(0.6, abs=0.01)
 
 
-def test_without_power_it_hangs_limp_and_does_not_fall(humanoid):
+def test_without_motor_power_it_hangs_on_the_stand_and_does_not_fall(humanoid):
     before = positions(humanoid)
     humanoid.set_motor_power(False)
     simulate(humanoid, 5.0)

@@ -1,4 +1,4 @@
-"""What the robot tells about itself."""
+"""The state that the robot's methods return."""
 
 from __future__ import annotations
 

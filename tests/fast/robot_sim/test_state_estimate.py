@@ -37,12 +37,12 @@ def test_the_estimate_follows_the_robot_through_a_walk():
     for _ in range(1200):
         step()
     assert np.abs(position).max() < 0.08
-    assert np.abs(np.array(position)[:, 2]).max() < 0.01  # the feet tell the height
+    assert np.abs(np.array(position)[:, 2]).max() < 0.01  # the feet determine the height
     assert np.sqrt(np.mean(np.square(velocity))) < 0.03
 
 
-def test_it_does_not_look_at_the_truth():
-    """Carried away on a moving floor, as it were, it stands as before and believes to be where it was."""
+def test_the_estimate_does_not_use_the_true_state():
+    """If the true robot is moved, the estimate does not change."""
     humanoid = Humanoid(estimates_state=True)
     simulate(humanoid, 1.0)
     humanoid.data.qpos[:2] += 0.7, -0.4
@@ -53,7 +53,7 @@ def test_it_does_not_look_at_the_truth():
     assert humanoid.base_pose().position[:2] == pytest.approx([0.7, -0.4], abs=0.05)
 
 
-def test_reset_starts_the_estimate_anew():
+def test_reset_restarts_the_estimate():
     humanoid = Humanoid(seed=5, estimates_state=True)
 
     def walk():

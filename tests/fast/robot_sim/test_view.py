@@ -60,7 +60,7 @@ def test_an_unknown_camera_is_refused_with_the_known_ones():
 
 
 def draw_with(**variables):
-    """Draw in a new process with these variables set; it prints the backend that was found."""
+    """Draw in a new process with these environment variables; it prints the backend that was used."""
     others = {
         name: value for name, value in os.environ.items() if name not in ("MUJOCO_GL", "PYOPENGL_PLATFORM")
     }
@@ -78,7 +78,7 @@ def draw_with(**variables):
     )
 
 
-def test_a_backend_that_needs_a_screen_is_set_aside():
+def test_a_backend_that_needs_a_screen_is_ignored():
     outcome = draw_with(MUJOCO_GL="glfw")
     assert outcome.stdout.split() in (["True", "egl"], ["True", "osmesa"]), outcome.stderr
 

@@ -82,7 +82,7 @@ def test_it_walks_to_a_pose_and_stands_there(humanoid, goal):
         (0.0, 0.0, -0.1),
     ],
 )
-def test_it_walks_at_the_velocity_it_is_told(humanoid, command):
+def test_it_walks_at_the_commanded_velocity(humanoid, command):
     seconds = 4.4  # ten steps
     walked = distance_walked(humanoid, command, seconds) / seconds
     assert walked == pytest.approx(command, rel=0.1, abs=0.012)

@@ -1,4 +1,4 @@
-"""What can be typed, and which `ros2` it reaches."""
+"""The command line, and which `ros2` it executes."""
 
 from __future__ import annotations
 
@@ -51,12 +51,12 @@ COURSE = Path(sys.executable).with_name("course")
         "interface list",
     ],
 )
-def test_the_words_and_flags_of_ros2cli_are_understood(words: str) -> None:
+def test_the_verbs_and_flags_of_ros2cli_are_parsed(words: str) -> None:
     options = app.command_line("ros2").parse_args(words.split())
     assert options.run.__module__.startswith("ros_cli.verb")
 
 
-# Of ros2cli 0.32.2 (Jazzy) and of what later releases for Jazzy added; `-h` and what stands for a word apart.
+# The flags of ros2cli 0.32.2 (Jazzy) and of later releases for Jazzy, without `-h` and positional arguments.
 ALL = "--spin-time -s --use-sim-time --no-daemon"
 QOS = (
     "--qos-profile --qos-depth --qos-history --qos-reliability --qos-durability --qos-liveliness "
@@ -133,7 +133,9 @@ def test_values_may_come_from_standard_input(monkeypatch: pytest.MonkeyPatch) ->
     assert given_values(options) == "{a: 1}"
 
 
-def test_a_longest_wait_for_nothing_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_maximum_wait_without_a_number_of_subscriptions_is_refused(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     assert run(["topic", "pub", "/words", "std_msgs/msg/String", "{}", "--max-wait-time-secs", "1"]) == 1
     assert "is only effective with --wait-matching-subscriptions" in capsys.readouterr().err
 
@@ -165,12 +167,15 @@ def test_an_error_is_reported_on_stderr(capsys: pytest.CaptureFixture[str]) -> N
     ("words", "error_text"),
     [
         (["service", "call", "/add", "std_srvs/srv/Nothing"], "The passed service type is invalid"),
-        (["service", "call", "/add", "std_msgs/msg/String"], "std_msgs/msg/String is no service"),
+        (
+            ["service", "call", "/add", "std_msgs/msg/String"],
+            "std_msgs/msg/String is of kind msg, not srv",
+        ),
         (["topic", "pub", "/text", "String"], "expected a name such as geometry_msgs/msg/Twist"),
         (["action", "send_goal", "/walk", "std_srvs/srv/SetBool"], "The passed action type is invalid"),
     ],
 )
-def test_a_wrong_type_is_reported_before_anything_is_waited_for(
+def test_a_wrong_type_is_reported_before_waiting(
     words: list[str], error_text: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run(words) == 1
@@ -185,14 +190,14 @@ def test_the_launcher_has_the_same_commands() -> None:
     assert finished.stdout.splitlines()[0].startswith("bool data")
 
 
-def test_its_help_says_in_which_domain_it_looks() -> None:
+def test_its_help_names_the_ros_domain() -> None:
     finished = subprocess.run([COURSE, "ros", "--help"], capture_output=True, text=True)
     assert finished.returncode == 0
     assert "usage: course ros" in finished.stdout
     assert "ROS_DOMAIN_ID" in finished.stdout
 
 
-def test_the_lab_finds_our_ros2(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_lab_finds_the_courses_ros2(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", real_ros2.path_with_ros2("/usr/bin:/bin"))
     finished = subprocess.run(["ros2", "service", "--help"], capture_output=True, text=True)
     assert finished.returncode == 0, finished.stderr
@@ -200,7 +205,7 @@ def test_the_lab_finds_our_ros2(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize("wheels", [True, False])
-def test_a_real_ros2_is_used_where_its_rclpy_is(
+def test_a_real_ros2_is_used_with_a_sourced_rclpy(
     wheels: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     real = tmp_path / "ros2"
@@ -211,7 +216,7 @@ def test_a_real_ros2_is_used_where_its_rclpy_is(
     assert real_ros2.real_ros2() == (None if wheels else str(real))
 
 
-def test_without_a_real_ros2_ours_is_used(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_without_a_real_ros2_the_courses_is_used(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("PATH", real_ros2.path_with_ros2(str(tmp_path)))
     monkeypatch.setattr(real_ros2, "uses_wheels", lambda: False)
     assert real_ros2.real_ros2() is None

@@ -1,4 +1,4 @@
-"""What the verbs print, without a graph."""
+"""The output of the verbs, without a graph."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from rclpy.parameter import get_parameter_value
 
 from ros_cli.errors import CommandError, unknown
 from ros_cli.verbs.interface import definition
-from ros_cli.verbs.param import as_file, described, worded
+from ros_cli.verbs.param import as_file, description_lines, value_line
 from ros_cli.verbs.topic_echo import as_text, select
 from ros_cli.verbs.topic_hz import ArrivalRate
 from ros_cli.verbs.topic_pub import ticks
@@ -43,7 +43,7 @@ def test_old_intervals_leave_the_window() -> None:
 def test_a_field_is_selected_by_its_path() -> None:
     assert as_text(select(PoseStamped(), "pose.orientation.w"), None) == "1.0\n"
     assert as_text(select(PoseStamped(), "pose.position"), None) == "x: 0.0\ny: 0.0\nz: 0.0\n"
-    with pytest.raises(CommandError, match="no field 'heading'; there are position, orientation"):
+    with pytest.raises(CommandError, match="no field 'heading'; the fields are position, orientation"):
         select(PoseStamped(), "pose.heading")
     with pytest.raises(CommandError, match="a plain value has no fields"):
         select(PoseStamped(), "header.frame_id.length")
@@ -62,11 +62,11 @@ def test_a_field_is_selected_by_its_path() -> None:
     ],
 )
 def test_a_parameter_is_printed_with_its_type(typed: str, line: str) -> None:
-    assert worded(get_parameter_value(typed)) == line
+    assert value_line(get_parameter_value(typed)) == line
 
 
 def test_a_parameter_without_a_value_is_printed() -> None:
-    assert worded(ParameterValue()) == "Parameter not set."
+    assert value_line(ParameterValue()) == "Parameter not set."
 
 
 def test_a_parameter_is_described_with_its_constraints() -> None:
@@ -77,7 +77,7 @@ def test_a_parameter_is_described_with_its_constraints() -> None:
         floating_point_range=[FloatingPointRange(from_value=0.0, to_value=2.5)],
         additional_constraints="above the last one",
     )
-    assert described(gain).splitlines() == [
+    assert description_lines(gain).splitlines() == [
         "Parameter name: gain",
         "  Type: double",
         "  Description: N·m/rad",
@@ -92,7 +92,7 @@ def test_a_parameter_is_described_with_its_constraints() -> None:
         read_only=True,
         integer_range=[IntegerRange(from_value=2, to_value=8, step=2)],
     )
-    assert described(steps).splitlines() == [
+    assert description_lines(steps).splitlines() == [
         "Parameter name: steps",
         "  Type: integer",
         "  Constraints:",
@@ -154,12 +154,12 @@ def test_an_unknown_interface_is_reported(name: str, expected: str) -> None:
         list(definition(name))
 
 
-def test_an_unknown_name_is_reported_with_those_that_look_alike() -> None:
+def test_an_unknown_name_is_reported_with_similar_names() -> None:
     names = ["/robot/odom", "/robot/imu"]
     assert str(unknown("topic", "/odom", names)) == "Unknown topic '/odom': did you mean /robot/odom?"
     assert "`topic list` shows" in str(unknown("topic", "/camera", names))
 
 
-def test_ticks_come_as_often_as_asked_or_without_an_end() -> None:
+def test_ticks_end_after_a_given_number_or_never() -> None:
     assert list(ticks(0.001, 3)) == [1, 2, 3]
     assert list(islice(ticks(0.001, 0), 5)) == [1, 2, 3, 4, 5]

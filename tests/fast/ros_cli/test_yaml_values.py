@@ -31,7 +31,7 @@ from ros_cli.yaml_values import message_from_yaml, message_to_yaml
         (AddTwoInts.Request, "", "a", 0),
     ],
 )
-def test_what_is_typed_becomes_the_message(message_type: Any, text: str, field: str, expected: Any) -> None:
+def test_typed_yaml_becomes_the_message(message_type: Any, text: str, field: str, expected: Any) -> None:
     value = message_from_yaml(message_type, text)
     for name in field.split("."):
         value = getattr(value, name)
@@ -66,7 +66,7 @@ def test_no_other_word_stands_for_a_time() -> None:
         (AddTwoInts.Request, "{a:1}", "a space follows each colon"),
         (AddTwoInts.Request, "{a: word}", "'a' field"),
         (AddTwoInts.Request, "[1, 2]", "needs to be a dictionary in YAML format"),
-        (AddTwoInts.Request, "{a: 1", "is no YAML"),
+        (AddTwoInts.Request, "{a: 1", "is not YAML"),
         (Twist, "{linear: 1}", "expected {x: …, y: …, z: …}, got 1"),
         (Twist, "{linear: {x: fast}}", "x is a number, got 'fast'"),
         (JointState, "{name: knee}", "'name' field"),

@@ -1,6 +1,6 @@
-"""A sound node on an EventsExecutor, to be run in a process of its own: `python events_executor_scenarios.py SPIN`.
+"""A correct node on an EventsExecutor, run in a process of its own: `python events_executor_scenarios.py SPIN`.
 
-SPIN names a way to spin without a timeout. The timer presses Ctrl-C; a spin that runs no callback ends by SIGALRM.
+SPIN names a way to spin without a timeout. The timer sends SIGINT; a spin that runs no callback ends by SIGALRM.
 """
 
 import signal

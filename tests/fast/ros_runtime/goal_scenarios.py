@@ -21,7 +21,7 @@ PREEMPTED = 0.3  # s without a processor, after a request has left
 
 
 class Preempted:
-    """What sends a client's requests, in a thread that loses the processor when one has just left."""
+    """Sends a client's requests in a thread that loses the processor right after it has sent a request."""
 
     def __init__(self, handle):
         self._handle = handle

@@ -1,6 +1,6 @@
 """Ctrl-C between two steps of rclpy, to be run in a process of their own: `python interrupt_scenarios.py NAME`.
 
-Each scenario puts the interrupt where chance would put it rarely; the status and stderr tell how the program ends.
+Each scenario sends the interrupt at a moment at which it rarely comes; status and stderr show how the program ends.
 """
 
 import signal
@@ -57,7 +57,7 @@ def while_a_daemon_thread_spins():
 
 
 class ContextThatGoesDownWhenAsked:
-    """It is still up when asked for the first time, and down right after."""
+    """A context that is ok at the first check and shut down right after it."""
 
     def __init__(self, handle):
         self._handle = handle
@@ -103,5 +103,6 @@ def spin_as_a_sound_node_does(executor):
 EMPTY = Empty()
 
 if __name__ == "__main__":
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where the tests run in the background
+    # SIGINT is ignored if the tests run in the background.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     globals()[sys.argv[1]]()

@@ -1,4 +1,4 @@
-"""The repair of the MultiThreadedExecutor: where it is applied, that it cures, and that it changes nothing else."""
+"""The repair of the MultiThreadedExecutor: it is applied where needed, it works, and it changes nothing else."""
 
 import json
 import shutil
@@ -38,7 +38,7 @@ def test_affected_versions_are_repaired(version):
 
 
 @pytest.mark.parametrize("version", ["3.3.11", "7.1.13", "7.2.0", "9.1.2", "10.0.4"])
-def test_other_versions_are_left_alone(version):
+def test_other_versions_are_not_changed(version):
     assert not needs_repair(version)
 
 
@@ -55,7 +55,7 @@ def test_a_newer_rclpy_is_not_touched():
     assert python("-c", code)[0] == "False"
 
 
-def test_python_starts_in_silence_where_ros_runtime_is_missing(tmp_path):
+def test_python_starts_without_output_if_ros_runtime_is_missing(tmp_path):
     shutil.copy(PTH, tmp_path)
     output, errors = python(
         *("-I", "-S", "-c", f"import site; site.addsitedir({str(tmp_path)!r}); print('started')")
@@ -82,7 +82,7 @@ def test_starting_python_imports_nothing_heavy(tmp_path):
 
 
 @affected
-def test_it_rests_while_all_workers_are_busy_and_messages_arrive():
+def test_the_spinning_thread_sleeps_while_all_workers_are_busy_and_messages_arrive():
     repaired = run("all_workers_sleep_while_messages_arrive")
     assert repaired["load"] < 0.15
     assert repaired["received"] == 20

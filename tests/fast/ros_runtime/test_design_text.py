@@ -1,4 +1,4 @@
-"""A design is read as it is written, and what is not there is named."""
+"""A design is read as written, and missing facts are named."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ BOX = "{http://www.w3.org/2000/svg}rect"
 
 
 def missing(text: str) -> list[str]:
-    """What is missing in the only link of a design that can be read."""
+    """The missing facts of the only link of a readable design."""
     design = read_design(text)
     assert design.problems == ()
     (link,) = design.links
@@ -59,13 +59,13 @@ def test_links_nodes_and_facts_are_read() -> None:
 
 @pytest.mark.parametrize("fact", ["qos", "rate", "failure", "safety"])
 @pytest.mark.parametrize("text", ["", "…", "?", "-"])
-def test_a_fact_that_says_nothing_is_missing(fact: str, text: str) -> None:
+def test_an_empty_fact_is_missing(fact: str, text: str) -> None:
     assert missing(link(**{fact: text})) == [f"{fact} is missing"]
 
 
-def test_a_wire_needs_no_qos_and_says_what_runs_through_it() -> None:
+def test_a_wire_needs_no_qos_but_a_description() -> None:
     assert missing(link("wire", "24 V", qos="")) == []
-    assert missing(link("wire", "")) == ["type is missing: say what runs through the wire"]
+    assert missing(link("wire", "")) == ["type is missing: say what the wire carries"]
 
 
 @pytest.mark.parametrize(
@@ -97,8 +97,8 @@ def test_a_type_of_another_kind_is_named(pattern: str, type: str, kind: str) -> 
     ]
 
 
-def test_a_word_that_is_no_pattern_is_named() -> None:
-    assert missing(link("stream"))[0] == "pattern: 'stream' is none of topic, service, action, wire"
+def test_an_unknown_pattern_is_named() -> None:
+    assert missing(link("stream"))[0] == "pattern: expected one of topic, service, action, wire, got 'stream'"
 
 
 @pytest.mark.parametrize(
@@ -106,7 +106,7 @@ def test_a_word_that_is_no_pattern_is_named() -> None:
     [
         ("camera to finder", "line 1: expected a link such as"),
         ("a -> b : topic x/msg/Y\n  saftey: none", "line 2: expected one of qos, rate, failure, safety"),
-        ("a -> b : topic x/msg/Y\n  rate: 1 Hz\n  rate: 2 Hz", "line 3: a -> b has rate already"),
+        ("a -> b : topic x/msg/Y\n  rate: 1 Hz\n  rate: 2 Hz", "line 3: a -> b already has rate"),
     ],
 )
 def test_a_line_that_cannot_be_read_is_named(text: str, problem: str) -> None:
@@ -114,7 +114,7 @@ def test_a_line_that_cannot_be_read_is_named(text: str, problem: str) -> None:
     assert found.startswith(problem)
 
 
-def test_what_is_indented_below_a_line_that_is_no_link_is_left_aside() -> None:
+def test_lines_indented_below_an_unreadable_link_are_ignored() -> None:
     assert len(read_design("camera to finder\n  rate: 15 Hz\n  qos: x").problems) == 1
 
 
@@ -136,17 +136,17 @@ def test_a_drawing_shows_nodes_and_links_and_marks_what_lacks_a_fact() -> None:
     assert len(root.findall(BOX)) == 1 + nodes_left + links + nodes_right
 
 
-def test_nothing_that_is_written_becomes_part_of_the_page() -> None:
+def test_text_of_a_design_is_escaped() -> None:
     svg = design_svg(read_design("a -> b : topic <script>alert(1)</script>"), title="<b>")
     assert "<script>" not in svg
     ET.fromstring(svg)
 
 
-def test_a_drawing_has_an_end() -> None:
+def test_the_number_of_drawn_links_is_limited() -> None:
     many = Design(tuple(Link(f"n{number}", "sink", "topic", "x/msg/Y") for number in range(500)))
     assert design_svg(many, title="many").count("rx=") == MOST_LINKS + 1
 
 
-def test_nothing_can_be_drawn_of_nothing() -> None:
+def test_an_empty_design_cannot_be_drawn() -> None:
     with pytest.raises(ValueError, match="at least one link"):
         design_svg(read_design(""), title="nothing")

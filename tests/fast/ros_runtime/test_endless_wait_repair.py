@@ -1,4 +1,4 @@
-"""The repair of the EventsExecutor: it serves and hears Ctrl-C, however it spins without a timeout."""
+"""The repair of the EventsExecutor: it runs callbacks and reacts to Ctrl-C in every spin without a timeout."""
 
 import signal
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The environment that every ROS process of ours starts with."""
+"""The environment of every ROS process that the course starts."""
 
 import os
 import subprocess

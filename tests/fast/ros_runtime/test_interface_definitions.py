@@ -1,4 +1,4 @@
-"""What is said about definitions that cannot be built, and what is read from those that can."""
+"""The problems reported for definitions that cannot be built, and the content read from valid ones."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ KNOWN = KnownTypes.installed([Path(prefix) for prefix in PREFIXES])
 
 
 def problems_of(folder: Path, **files: str) -> list[Problem]:
-    """What is wrong with files given as Name_srv="…"."""
+    """The problems of files given as Name__srv="…"."""
     for name, text in files.items():
         (folder / name.replace("__", ".")).write_text(text)
     with pytest.raises(InvalidDefinitions) as caught:
@@ -26,28 +26,28 @@ def problems_of(folder: Path, **files: str) -> list[Problem]:
 
 
 WRONG_LINES = [
-    ("float speed", "float is no type of ROS 2", "float64"),
-    ("float[3] axis", "float is no type of ROS 2", "float64[3]"),
+    ("float speed", "float is not a type of ROS 2", "float64"),
+    ("float[3] axis", "float is not a type of ROS 2", "float64[3]"),
     ("Float64 speed", "neither a basic type nor a .msg of this package", "float64"),
-    ("flaot64 speed", "no basic type", "float64"),
-    ("time when", "time is no type of ROS 2", "builtin_interfaces/Time"),
+    ("flaot64 speed", "not a basic type", "float64"),
+    ("time when", "time is not a type of ROS 2", "builtin_interfaces/Time"),
     ("Point target", "neither a basic type nor a .msg of this package", "geometry_msgs/Point"),
     ("geometry_msgs/msg/Point target", "a folder in the middle", "geometry_msgs/Point"),
-    ("geometry_msgs.Point target", "is no type", "geometry_msgs/Point"),
+    ("geometry_msgs.Point target", "is not a type", "geometry_msgs/Point"),
     ("geometry_msgs/Pont target", "geometry_msgs has no message Pont", "geometry_msgs/Point"),
     ("std_msgs/Point target", "std_msgs has no message Point", "geometry_msgs/Point"),
     ("geometri_msgs/Point target", "there is no package geometri_msgs", "geometry_msgs"),
-    ("float64[x] speeds", "[x] is no size", "[3]"),
-    ("list[float64] speeds", "[float64] is no size", "[3]"),
+    ("float64[x] speeds", "[x] is not an array size", "[3]"),
+    ("list[float64] speeds", "[float64] is not an array size", "[3]"),
     ("float64 maxSpeed", "'maxSpeed' cannot be the name of a field", "float64 max_speed"),
     ("float64 max__speed", "'max__speed' cannot be the name of a field", "float64 max_speed"),
     ("float64 2nd", "'2nd' cannot be the name of a field", "float64 nd"),
-    ("float64 class", "class is a word of C, C++ or Python", "class_value"),
-    ("float64 from", "from is a word of C, C++ or Python", "from_value"),
+    ("float64 class", "class is a keyword of C, C++ or Python", "class_value"),
+    ("float64 from", "from is a keyword of C, C++ or Python", "from_value"),
     ("int32 none=0", "'none' cannot be the name of a constant", "capitals"),
     ("int8 MANY=300", "must be a valid integer value >= -128 and <= 127", "int8"),
     ("bool ready maybe", "must be either 'true'", "bool"),
-    ("float64", "there is one word", "float64 speed"),
+    ("float64", "the line has only one word", "float64 speed"),
     (" float64 speed", "the line is indented", "float64 speed"),
     ("float64 speed;", "ends with ';'", "float64 speed"),
     ("speed: float64", "a colon, as in Python", "float64 speed"),
@@ -67,7 +67,7 @@ def test_a_wrong_line_is_named_with_what_was_expected(
 @pytest.mark.parametrize("separator", ["--", "----", " ---", "--- ", "---  # response"])
 def test_a_line_that_only_looks_like_a_separator_is_named(tmp_path: Path, separator: str) -> None:
     near_miss, count = problems_of(tmp_path, Go__srv=f"int32 a\n{separator}\nint32 b\n")
-    assert (near_miss.line, near_miss.text, near_miss.wrong) == (2, separator, "this is no separator")
+    assert (near_miss.line, near_miss.text, near_miss.wrong) == (2, separator, "this is not a separator")
     assert count.wrong == "it has 0 lines that are exactly ---"
     assert count.expected == "1: a .srv is request --- response, and each may be empty"
 
@@ -81,13 +81,13 @@ def test_the_separators_are_counted(tmp_path: Path, file: str, count: int) -> No
     assert problem.wrong == f"it has {count} lines that are exactly ---"
 
 
-def test_a_name_stands_once_in_a_part_and_again_in_the_next(tmp_path: Path) -> None:
+def test_a_name_is_unique_in_a_part_but_may_recur_in_the_next(tmp_path: Path) -> None:
     (problem,) = problems_of(tmp_path, Go__srv="int32 a\nfloat64 a\n---\nint32 a\n")
-    assert (problem.line, problem.wrong) == (2, "there is a a already in this part")
+    assert (problem.line, problem.wrong) == (2, "this part already has a a")
 
 
 @pytest.mark.parametrize("name", ["compute_ik", "goHome", "2Go"])
-def test_a_file_is_called_as_a_type(tmp_path: Path, name: str) -> None:
+def test_a_files_name_must_be_a_type_name(tmp_path: Path, name: str) -> None:
     (problem,) = problems_of(tmp_path, **{f"{name}__msg": "int32 a\n"})
     assert problem.wrong == f"'{name}' cannot be the name of a type"
     assert problem.expected.startswith("a name such as ")
@@ -102,12 +102,12 @@ def test_all_problems_of_all_files_are_reported_at_once(tmp_path: Path) -> None:
     ]
 
 
-def test_an_empty_folder_and_a_file_that_is_no_text_are_named(tmp_path: Path) -> None:
+def test_an_empty_folder_and_a_file_that_is_not_text_are_named(tmp_path: Path) -> None:
     (nothing,) = problems_of(tmp_path)
     assert nothing.wrong == "there is no definition in this folder"
     (tmp_path / "Go.msg").write_bytes(b"int32 a\n\xff\xfe")
     (binary,) = problems_of(tmp_path)
-    assert "no text in UTF-8" in binary.wrong
+    assert "not UTF-8 text" in binary.wrong
 
 
 def test_two_files_of_one_name_are_refused(tmp_path: Path) -> None:
@@ -117,7 +117,7 @@ def test_two_files_of_one_name_are_refused(tmp_path: Path) -> None:
     assert problem.wrong == "the folder has two files of this name"
 
 
-def test_a_sound_definition_is_read_with_fields_constants_and_packages(tmp_path: Path) -> None:
+def test_a_valid_definition_is_read_with_fields_constants_and_packages(tmp_path: Path) -> None:
     (tmp_path / "action").mkdir()
     (tmp_path / "action/Go.action").write_text(
         '# Go there.\nWaypoint[<=3] via  # m\ngeometry_msgs/PoseStamped pose\nstring<=8 mode "walk"\n'

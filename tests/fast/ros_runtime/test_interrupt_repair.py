@@ -1,4 +1,4 @@
-"""The repair of Ctrl-C: a sound node ends with status 0 wherever the interrupt falls."""
+"""The repair of Ctrl-C: a correct node ends with status 0 at whatever moment the interrupt comes."""
 
 import pytest
 from rclpy_process import run_scenario
@@ -7,7 +7,7 @@ from ros_runtime.workarounds.rclpy_repairs.interrupt import needs_repair
 from ros_runtime.workarounds.rclpy_repairs.version import installed_version
 
 SCENARIOS = "interrupt_scenarios.py"
-# What rclpy makes of it without the repair. A daemon thread crashes only about every second time.
+# The errors without the repair. A daemon thread crashes only in about half of the runs.
 FAULTS = {
     "between_the_look_at_the_context_and_the_wait_set": "failed to initialize wait set",
     "while_a_message_is_made": "Unable to convert call argument",
@@ -24,14 +24,14 @@ def test_only_the_versions_of_jazzy_are_repaired(version, affected):
 
 
 @pytest.mark.parametrize("scenario", [*FAULTS, "while_a_daemon_thread_spins"])
-def test_a_sound_node_ends_well(scenario):
+def test_a_correct_node_ends_with_status_0(scenario):
     done = run_scenario(SCENARIOS, scenario)
     assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.skipif(not needs_repair(installed_version()), reason="this rclpy is not repaired")
 @pytest.mark.parametrize("scenario", FAULTS)
-def test_without_the_repair_it_does_not(scenario):
+def test_without_the_repair_the_node_fails(scenario):
     done = run_scenario(SCENARIOS, scenario, repairs="off")
     assert FAULTS[scenario] in done.stderr, "is the repair still needed?"
     assert done.returncode == 1

@@ -1,4 +1,4 @@
-"""The repair of the ActionClient: a quick answer is not lost where one thread sends and another one spins."""
+"""The repair of the ActionClient: a quick response is not lost if one thread sends and another one spins."""
 
 import json
 from types import SimpleNamespace
@@ -20,16 +20,16 @@ def answered(repairs):
     return json.loads(done.stdout)
 
 
-def test_answers_that_come_while_the_sender_has_no_processor_arrive():
+def test_responses_are_received_while_the_sender_has_no_processor():
     assert answered("on") == {"goal": True, "cancel": True, "result": True}
 
 
 @pytest.mark.skipif(not AFFECTED, reason="this rclpy does not have the fault")
-def test_without_the_repair_they_do_not():
+def test_without_the_repair_responses_are_lost():
     assert answered("off") == {"goal": False}
 
 
-def test_a_client_that_holds_a_lock_is_left_alone():
+def test_a_client_that_holds_a_lock_is_not_changed():
     class Mended:
         def send_goal_async(self):
             with self._lock:

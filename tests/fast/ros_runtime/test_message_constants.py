@@ -1,4 +1,4 @@
-"""The constants that are written out are those of the messages."""
+"""The constants in message_constants.py equal those of the messages."""
 
 from __future__ import annotations
 

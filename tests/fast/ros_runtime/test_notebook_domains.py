@@ -31,7 +31,7 @@ def lab(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def notebooks(lab: None) -> Iterator[list[ReservedDomain]]:
-    """Two that have joined, one after the other."""
+    """Two notebooks that have joined their domains, one after the other."""
     domains = [ReservedDomain(), ReservedDomain()]
     for domain in domains:
         notebook_domains.announce(domain.domain_id)
@@ -39,7 +39,7 @@ def notebooks(lab: None) -> Iterator[list[ReservedDomain]]:
     domains[0].release()
 
 
-def test_the_notebook_that_joined_last_is_taken_and_when_it_has_ended_the_one_before(
+def test_the_latest_domain_is_that_of_the_last_notebook_that_still_runs(
     notebooks: list[ReservedDomain],
 ) -> None:
     earlier, later = notebooks
@@ -85,13 +85,15 @@ def test_a_lab_without_a_running_notebook_has_none(lab: None) -> None:
     assert notebook_domains.latest() is None
 
 
-def test_an_ordinary_shell_stays_as_it_is() -> None:
+def test_outside_the_lab_the_domain_is_not_changed() -> None:
     notebook_domains.announce(7)
     join_domain()
     assert "ROS_DOMAIN_ID" not in os.environ
 
 
-def test_a_notebook_tells_which_nodes_its_commands_have_to_see(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_notebook_registers_the_nodes_that_its_commands_must_discover(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setenv(notebook_domains.EXPECTED, "")
     notebook_domains.expect_node("/robot/notebook")
     notebook_domains.expect_node("/robot/humanoid")

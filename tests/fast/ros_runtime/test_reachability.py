@@ -1,4 +1,4 @@
-"""Several nodes are waited for at once: one that never answers costs the others nothing."""
+"""Waiting for several nodes at once: a node that never answers does not delay the others."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ros_runtime.reachability import wait_until_all_reachable, wait_until_reacha
 
 
 class FakeClient:
-    """Of a node that answers from its `patience`-th question on; None: never."""
+    """A client of a node that answers from the `patience`-th request on; None: never."""
 
     def __init__(self, patience: int | None) -> None:
         self._patience = patience
@@ -55,7 +55,7 @@ def after(rounds: int) -> Any:
     return lambda: next(looks) > rounds
 
 
-def test_all_that_answer_are_named_and_the_silent_one_is_asked_to_the_end() -> None:
+def test_answering_nodes_are_returned_and_a_silent_one_is_requested_until_the_end() -> None:
     node = FakeNode(quick=1, slow=2, dead=None)
     reachable = wait_until_all_reachable(node, ["/quick", "/slow", "/dead"], after(3))  # type: ignore[arg-type]
     assert reachable == {"/quick", "/slow"}
@@ -64,7 +64,7 @@ def test_all_that_answer_are_named_and_the_silent_one_is_asked_to_the_end() -> N
     assert node.destroyed == 3
 
 
-def test_nobody_is_reachable_when_there_is_nobody() -> None:
+def test_without_nodes_none_is_reachable() -> None:
     assert wait_until_all_reachable(FakeNode(), [], after(3)) == set()  # type: ignore[arg-type]
 
 

@@ -1,4 +1,4 @@
-"""Systems that share a machine stay out of each other's way."""
+"""ROS systems on one machine use different domains."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ def locks_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
 
 
-def test_all_domains_are_different_and_their_ports_are_given_to_no_client() -> None:
+def test_each_domain_is_reserved_once_and_outside_the_ephemeral_ports() -> None:
     domains = [ReservedDomain() for _ in DOMAIN_IDS]
     assert sorted(domain.domain_id for domain in domains) == [*range(1, 102), *range(215, 233)]
     for domain in domains:
         domain.release()
 
 
-def test_when_all_are_taken_it_says_so_and_a_released_one_is_used_again() -> None:
+def test_if_all_domains_are_taken_it_raises_and_a_released_one_is_reused() -> None:
     *others, last = [ReservedDomain() for _ in DOMAIN_IDS]
     with pytest.raises(NoDomainLeft, match="all 119 ROS domains are in use"):
         ReservedDomain()

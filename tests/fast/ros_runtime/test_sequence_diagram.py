@@ -7,7 +7,7 @@ from ros_runtime.drawing.sequence_diagram import Arrow, sequence_svg
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-def test_a_diagram_shows_every_label_and_says_it_in_words():
+def test_a_diagram_shows_every_label_and_has_a_text_alternative():
     drawing = sequence_svg(
         [
             Arrow(1.0, "server", "client", "accepted", "answer"),
@@ -24,13 +24,13 @@ def test_a_diagram_shows_every_label_and_says_it_in_words():
     )
 
 
-def test_a_diagram_of_nothing_is_refused():
+def test_an_empty_diagram_is_refused():
     with pytest.raises(ValueError, match="nothing has happened"):
         sequence_svg([], title="empty")
 
 
 @pytest.mark.parametrize("odd", ["\x08", "\x00", "\ud800", "\uffff", "\x1b[2J"])
-def test_what_xml_cannot_hold_is_replaced_and_the_drawing_can_be_read(odd):
+def test_characters_that_xml_does_not_allow_are_replaced(odd):
     drawing = sequence_svg([Arrow(1.0, "server", "client", f"<{odd}>")], title=odd)
     texts = [element.text for element in ElementTree.fromstring(drawing).iter(f"{SVG}text")]
     assert f"<\ufffd{odd[1:]}>" in texts

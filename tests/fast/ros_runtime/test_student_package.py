@@ -1,4 +1,4 @@
-"""Building a student's package beside those that are built already."""
+"""Building a student's package while others are already built."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 from ros_runtime.interface_build.student_package import without_packages_in
 
 
-def test_packages_of_the_same_notebook_are_not_taken_for_installed_ones() -> None:
+def test_packages_built_by_the_same_notebook_do_not_count_as_installed() -> None:
     environ = {
         "AMENT_PREFIX_PATH": "/notebook/.interfaces/my_interfaces-1:/opt/ros/jazzy",
         "HOME": "/home/me",

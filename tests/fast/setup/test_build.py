@@ -1,4 +1,4 @@
-"""The build hook: which ROS 2 it builds with, and when a finished build is used again."""
+"""The build hook: the ROS 2 that it builds with, and the reuse of a finished build."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[3]
 
 @pytest.fixture
 def jazzy(tmp_path: Path) -> Path:
-    """A prefix as /opt/ros/jazzy has it, for the Python that runs the tests."""
+    """A prefix with the layout of /opt/ros/jazzy, for the Python that runs the tests."""
     prefix = tmp_path / "opt/ros/jazzy"
     version = f"{sys.version_info.major}.{sys.version_info.minor}"
     (prefix / f"lib/python{version}/site-packages/rclpy").mkdir(parents=True)
@@ -41,7 +41,7 @@ def test_a_sourced_jazzy_is_used_as_colcon_would_use_it(jazzy: Path) -> None:
 @pytest.mark.parametrize(
     "difference", [{"ROS_DISTRO": "humble"}, {"ROS_DISTRO": ""}, {"AMENT_PREFIX_PATH": "/elsewhere"}]
 )
-def test_another_ros_is_not_taken_for_a_sourced_jazzy(jazzy: Path, difference: dict[str, str]) -> None:
+def test_another_ros_distribution_is_ignored(jazzy: Path, difference: dict[str, str]) -> None:
     environ = {"ROS_DISTRO": "jazzy", "AMENT_PREFIX_PATH": str(jazzy)}
     sourced_prefixes = build_environment.sourced_prefixes
     assert sourced_prefixes(environ) == [jazzy]

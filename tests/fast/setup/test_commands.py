@@ -44,7 +44,7 @@ def test_a_command_is_loaded_by_its_name(name: str) -> None:
 
 
 @pytest.mark.parametrize(("assertion", "status"), [("True", 0), ("False", 1)])
-def test_the_test_command_tells_pytests_outcome(tmp_path: Path, assertion: str, status: int) -> None:
+def test_the_test_command_has_pytests_exit_status(tmp_path: Path, assertion: str, status: int) -> None:
     test_file = tmp_path / "test_sample.py"
     test_file.write_text(f"def test_sample():\n    assert {assertion}\n")
 
@@ -68,7 +68,7 @@ def test_jupyterlab_gets_its_own_arguments() -> None:
     assert finished.stdout.strip() == version("jupyterlab")
 
 
-def test_the_lab_says_itself_what_it_opens() -> None:
+def test_the_help_of_the_lab_names_what_it_opens() -> None:
     finished = course("lab", "--help")
 
     assert finished.returncode == 0

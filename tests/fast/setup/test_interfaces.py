@@ -139,7 +139,7 @@ CONSTANTS = {
 
 
 def declared_constants(message_type: type) -> dict[str, object]:
-    """The constants of a generated class: upper-case names that its metaclass serves."""
+    """The constants of a generated class: the upper-case names of its metaclass."""
     metaclass = type(message_type)
     return {
         name: getattr(message_type, name) for name in vars(metaclass) if name.isupper() and name[0] != "_"

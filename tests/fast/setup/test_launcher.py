@@ -1,4 +1,4 @@
-"""The launcher notices when its environment no longer fits the clone."""
+"""The launcher detects when its environment no longer fits the clone."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ WHAT_DECIDES = (
 
 @pytest.fixture
 def clone(tmp_path: Path) -> Path:
-    """A copy of what the environment is made from, with a stand-in environment that is up to date."""
+    """A copy of the files from which the environment is made, with a fake environment that is up to date."""
     clone = tmp_path / "clone"
     clone.mkdir()
     for name in WHAT_DECIDES:
@@ -47,7 +47,7 @@ def clone(tmp_path: Path) -> Path:
 
 
 def dry_run(clone: Path, **environment: str) -> list[str]:
-    """The launcher's verdict on the environment, and the fingerprint of what it would be made from."""
+    """The state of the environment as the launcher reports it, and the fingerprint of the files for it."""
     inherited = {name: value for name, value in os.environ.items() if not name.startswith(("ROS_", "AMENT_"))}
     finished = subprocess.run(
         [clone / "course"],
@@ -99,7 +99,7 @@ def test_a_new_date_of_the_same_content_changes_nothing(clone: Path) -> None:
     assert state(clone) == "ready"
 
 
-def test_an_interrupted_set_up_is_begun_again(clone: Path) -> None:
+def test_an_interrupted_set_up_is_restarted(clone: Path) -> None:
     (clone / ".venv/course.stamp").unlink()
 
     assert state(clone) == "missing"
@@ -120,7 +120,7 @@ def test_a_moved_clone_needs_its_environment_made_again(clone: Path) -> None:
     assert state(moved) == "moved"
 
 
-def test_sourcing_ros_2_jazzy_asks_for_an_environment_that_uses_it(clone: Path, tmp_path: Path) -> None:
+def test_sourcing_ros_2_jazzy_requires_an_environment_that_uses_it(clone: Path, tmp_path: Path) -> None:
     prefix = tmp_path / "opt/ros/jazzy"
     (prefix / "lib/python3.12/site-packages/rclpy").mkdir(parents=True)
 
@@ -141,7 +141,7 @@ def test_a_clone_in_a_path_that_some_tools_cannot_take_is_used_through_a_link(cl
         assert state(odd) == "ready"
         assert subprocess.check_output([odd / "course"], text=True) == f"{link}/.venv/bin/course\n"
 
-        link.parent.chmod(0o777)  # anybody could lead it elsewhere
+        link.parent.chmod(0o777)  # any user could replace the link
         assert plain_path(odd).parent != link.parent
     finally:
         for parent in ("/var/tmp", "/tmp"):
@@ -164,7 +164,7 @@ def test_a_colon_in_its_path_is_refused_in_a_sentence(clone: Path) -> None:
 
 
 @pytest.mark.parametrize("home", ["", "/nonexistent"])
-def test_without_a_usable_home_the_clone_serves_as_one(clone: Path, home: str) -> None:
+def test_without_a_usable_home_the_clone_is_used_as_home(clone: Path, home: str) -> None:
     (clone / ".venv/bin/course").write_text('#!/bin/sh\necho "$HOME"\n')
     environment = {**os.environ, "HOME": home}
     environment.pop("ROS_DISTRO", None)

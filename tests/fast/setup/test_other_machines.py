@@ -1,4 +1,4 @@
-"""Containers, Binder, CI and unusual machines: everything calls the launcher, with arguments that it takes."""
+"""Containers, Binder, CI and unusual machines: all call the launcher with valid arguments."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def test_the_gitlab_job_calls_the_launcher() -> None:
     assert set(matrix["EXERCISE"]) <= set(exercise_names())
 
 
-def test_what_ci_writes_is_what_ci_keeps() -> None:
+def test_ci_keeps_the_files_that_it_writes() -> None:
     (job,) = github()["jobs"].values()
     kept = next(step["with"]["path"] for step in job["steps"] if "upload-artifact" in step.get("uses", ""))
     assert any(f"--json {kept}" in step.get("run", "") for step in job["steps"])
@@ -114,7 +114,7 @@ def test_binder_starts_the_lab_with_the_options_of_its_own_command(tmp_path: Pat
         ({"HOSTTYPE": "aarch64"}, "this processor is aarch64, and rclpy on PyPI is made for x86_64 only"),
     ],
 )
-def test_a_machine_that_cannot_says_so_and_what_works(machine: dict[str, str], said: str) -> None:
+def test_an_unsupported_machine_is_reported_with_an_alternative(machine: dict[str, str], said: str) -> None:
     script = ". setup/machine.sh; ros=wheels; refuse_machine"
     told = subprocess.run(
         ["bash", "-c", script],
@@ -135,7 +135,7 @@ def test_another_processor_with_ros_from_apt_is_no_obstacle() -> None:
     assert subprocess.run(["bash", "-c", script], cwd=PROJECT, env=environment, check=False).returncode == 0
 
 
-def test_the_launcher_asks_before_it_sets_anything_up(tmp_path: Path) -> None:
+def test_the_launcher_checks_the_machine_before_set_up(tmp_path: Path) -> None:
     for name in ("course", "setup"):
         copy = shutil.copytree if (PROJECT / name).is_dir() else shutil.copy2
         copy(PROJECT / name, tmp_path / name)

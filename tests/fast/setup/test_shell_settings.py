@@ -1,4 +1,4 @@
-"""What a shell has set for other ROS work does not keep the course's commands from their work."""
+"""The course's commands work in shells with variables for other ROS work."""
 
 from __future__ import annotations
 
@@ -18,19 +18,21 @@ def run(*arguments: str, **variables: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-def test_another_middleware_is_set_aside_in_every_process() -> None:
+def test_another_middleware_is_ignored_in_every_process() -> None:
     done = run("-c", "import rclpy.node; print('imported')", RMW_IMPLEMENTATION="rmw_cyclonedds_cpp")
     assert done.stdout == "imported\n", done.stderr
 
 
-def test_ros2_refuses_a_domain_that_there_is_not_in_a_sentence() -> None:
+def test_ros2_refuses_an_invalid_domain_with_a_message() -> None:
     done = run("-m", "ros_cli", "topic", "list", ROS_DOMAIN_ID="abc")
     assert (done.returncode, done.stdout) == (1, "")
     assert re.fullmatch(r"ROS_DOMAIN_ID is 'abc', expected a number from 0 to 232\.\nNext: .*\n", done.stderr)
 
 
 @pytest.mark.parametrize("domain", ["233", "-1", "１"])
-def test_so_does_the_robot(domain: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_robot_refuses_an_invalid_domain_with_a_message(
+    domain: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", domain)
     monkeypatch.setattr(sys, "argv", ["course sim"])
     with pytest.raises(SystemExit, match=f"ROS_DOMAIN_ID is '{domain}', expected a number from 0 to 232"):

@@ -1,4 +1,4 @@
-"""System packages: root gets them installed, everyone else is told the line to type."""
+"""System packages: for root they are installed, for other users the command is printed."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Machine:
         path.chmod(0o755)
 
     def ensure(self, *packages: str) -> str:
-        """What the launcher says when it needs `packages`."""
+        """The output of the launcher when it needs `packages`."""
         script = '. "$SETUP/system_packages.sh"; ensure_system_packages "$@"'
         environment = {"PATH": str(self.bin), "SETUP": str(ROOT / "setup"), "root": str(self.bin.parent)}
         command = ["/bin/bash", "-u", "-c", script, "ensure", *packages]
@@ -40,7 +40,7 @@ def machine(tmp_path: Path) -> Machine:
     return Machine(tmp_path)
 
 
-def test_a_user_is_told_the_line_and_what_does_not_work(machine: Machine) -> None:
+def test_a_user_gets_the_command_to_type_and_the_missing_features(machine: Machine) -> None:
     machine.program("id", "echo 1000")
     machine.program("apt-get", f'echo "$@" >>{machine.calls}')
 
@@ -52,7 +52,7 @@ def test_a_user_is_told_the_line_and_what_does_not_work(machine: Machine) -> Non
     assert not machine.calls.exists()
 
 
-def test_nothing_is_said_when_nothing_is_missing(machine: Machine) -> None:
+def test_nothing_is_printed_if_no_package_is_missing(machine: Machine) -> None:
     machine.program("bwrap", "")
 
     assert machine.ensure("bubblewrap") == ""
@@ -75,7 +75,7 @@ def test_root_gets_them_from_apt(machine: Machine) -> None:
     assert "missing" not in said
 
 
-def test_an_apt_that_cannot_help_is_asked_once_and_then_reported(machine: Machine) -> None:
+def test_a_failing_apt_is_tried_once_and_then_reported(machine: Machine) -> None:
     machine.program("id", "echo 0")
     machine.program("apt-get", f'echo "$@" >>{machine.calls}; exit 100')
 
@@ -88,7 +88,7 @@ def test_an_apt_that_cannot_help_is_asked_once_and_then_reported(machine: Machin
     assert machine.calls.read_text() == asked != ""
 
 
-def test_one_package_that_apt_lacks_takes_no_other_with_it(machine: Machine) -> None:
+def test_one_package_that_apt_lacks_does_not_prevent_others(machine: Machine) -> None:
     machine.program("id", "echo 0")
     machine.program(
         "apt-get",

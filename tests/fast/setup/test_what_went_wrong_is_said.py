@@ -1,4 +1,4 @@
-"""A command that could not do its job says why, in a sentence."""
+"""A failed command prints the reason in a sentence."""
 
 from __future__ import annotations
 

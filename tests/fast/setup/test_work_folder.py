@@ -1,4 +1,4 @@
-"""Notebooks of a shared installation: each student's own copies, which stay as the student left them."""
+"""Notebooks of a shared installation: each student has own copies, which updates do not change."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ros_runtime.project import PROJECT, WORK_VARIABLE
 
 @pytest.fixture
 def shared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An installation that this user may not write, and a home."""
+    """A read-only installation, and a home folder."""
     root = tmp_path / "shared"
     for name in ("start_here.ipynb", "chapters/01.ipynb", "exercises/patterns/patterns.ipynb", "docs/a.md"):
         (root / name).parent.mkdir(parents=True, exist_ok=True)
@@ -45,7 +45,7 @@ def test_a_student_gets_copies_that_can_be_written(shared: Path, tmp_path: Path)
     assert (folder / "chapters/01.ipynb").stat().st_mode & 0o200
 
 
-def test_work_that_is_there_stays_as_it_is_and_what_is_new_comes(shared: Path, tmp_path: Path) -> None:
+def test_existing_work_is_not_changed_and_new_files_are_added(shared: Path, tmp_path: Path) -> None:
     mine = work_folder() / "chapters/01.ipynb"
     mine.write_text("mine")
     (shared / "chapters/02.ipynb").write_text("theirs")
@@ -69,7 +69,7 @@ def test_in_a_clone_of_ones_own_notebooks_stay_where_they_are(monkeypatch: pytes
 def test_progress_is_kept_and_read_in_the_work_folder(tmp_path: Path) -> None:
     (tmp_path / "exercises/patterns").mkdir(parents=True)
     code = (
-        "from ros_runtime.self_checks import keep_check; keep_check('patterns', 3, 4)\n"
+        "from ros_runtime.self_checks import store_check; store_check('patterns', 3, 4)\n"
         "from lab.learning.contents import CHAPTERS; print(CHAPTERS)"
     )
     printed = subprocess.run(

@@ -1,4 +1,4 @@
-"""What failed beside other tests runs once more, alone; a correct submission that lost a point is no such test."""
+"""Failed tests run once more, alone, except a correct submission that lost a point."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def test_verdict(request):
 
 
 @pytest.mark.parametrize(("needed", "passes"), [(2, True), (3, False)])
-def test_what_failed_runs_once_more_without_the_rest(
+def test_failed_tests_run_again_without_the_others(
     tmp_path: Path, capfd: pytest.CaptureFixture[str], needed: int, passes: bool
 ) -> None:
     (tmp_path / "test_some.py").write_text(FAILS_AT_FIRST.format(needed=needed))

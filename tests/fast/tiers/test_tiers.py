@@ -1,4 +1,4 @@
-"""Every test has exactly one tier, which its folder names, and `course test` runs the tiers it is asked for."""
+"""Every test has exactly one tier, by its folder, and `course test` runs the requested tiers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TEST_FILE = "def test_sample():\n    pass\n"
 
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
-    """A project with a test in each tier, and with this one's conftest and settings."""
+    """A project with a test in each tier, and with the conftest and settings of this project."""
     for name in ("pyproject.toml", "tests/conftest.py"):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text((ROOT / name).read_text())

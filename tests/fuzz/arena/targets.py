@@ -1,4 +1,4 @@
-"""The exercises that generated programs are handed in for: one of each kind."""
+"""The exercises for which generated programs are submitted: one of each kind."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Target:
-    """An exercise that a generated program is handed in for.
+    """An exercise for which a generated program is submitted.
 
     Attributes:
         exercise: its name.

@@ -53,7 +53,7 @@ class Wild:
         self.pause = CHANCE.choice(PERIODS)
 
     def offer_service(self, name, kind):
-        """Answer somehow."""
+        """Respond in an arbitrary way."""
 
         def answer(request, response):
             mood = CHANCE.choice(self.moods)
@@ -71,7 +71,7 @@ class Wild:
         self.node.create_service(kind, name, answer, callback_group=self.group)
 
     def offer_action(self, name, kind):
-        """Take goals, say anything about them, and end them somehow or not."""
+        """Accept goals, publish arbitrary feedback, and end the goals in any way or never."""
 
         def execute(handle):
             for _ in range(CHANCE.choice((0, 1, 10, 300, 3000))):
@@ -103,18 +103,18 @@ class Wild:
         self.publishers["feedback"] = (feedback, kind.Impl.FeedbackMessage)
 
     def offer_client(self, name, kind):
-        """Be a client that sends whatever it likes."""
+        """Create a client that sends arbitrary requests."""
         self.clients.append((ActionClient(self.node, kind, name), kind))
 
     def act_send_goals(self):
-        """Send goals, and ask to cancel some; wait for nothing."""
+        """Send goals, request to cancel some, and wait for no answer."""
         for client, kind in self.clients:
             asked = client.send_goal_async(wild_message(kind.Goal, CHANCE), feedback_callback=print)
             if CHANCE.random() < 0.5:
                 asked.add_done_callback(lambda done: done.result().cancel_goal_async())
 
     def act_publish_on_any_topic(self):
-        """Publish something of the right type on a topic that is there."""
+        """Publish a message of the right type on an existing topic."""
         names = [(name, types[0]) for name, types in self.node.get_topic_names_and_types() if types]
         if names and len(self.publishers) < 40:
             name, kind = CHANCE.choice(names)
@@ -126,13 +126,13 @@ class Wild:
                 publisher.publish(wild_message(kind, CHANCE))
 
     def act_publish_bytes(self):
-        """Publish bytes that are no message."""
+        """Publish bytes that are not a message."""
         if self.publishers:
             publisher, _ = CHANCE.choice(list(self.publishers.values()))
             publisher.publish(bytes([0, 1, 0, 0]) + CHANCE.randbytes(CHANCE.choice((0, 3, 50, 2000))))
 
     def act_make_endpoints(self):
-        """Make something with a name that is odd, or none."""
+        """Create an endpoint with an unusual or invalid name."""
         name = CHANCE.choice(NAMES + NO_NAMES)
         std = import_module("std_srvs.srv").Trigger
         made = CHANCE.choice(("publisher", "subscription", "service", "client", "node"))
@@ -148,12 +148,12 @@ class Wild:
             self.kept.append(self.node.create_client(std, name))
 
     def act_destroy_endpoints(self):
-        """Take something away again."""
+        """Destroy an endpoint."""
         if self.kept and isinstance(self.kept[-1], rclpy.node.Node):
             self.kept.pop().destroy_node()
 
     def act_call_anything(self):
-        """Call a service that is there, and wait for nothing."""
+        """Call an existing service without waiting."""
         names = [(name, types[0]) for name, types in self.node.get_service_names_and_types() if types]
         if names:
             name, kind = CHANCE.choice(names)
@@ -162,7 +162,7 @@ class Wild:
                 client.call_async(wild_message(find(kind).Request, CHANCE))
 
     def act_write_files(self):
-        """Leave files, links, pipes and folders where it may."""
+        """Create files, links, pipes and folders wherever it is allowed."""
         self.files += 1
         folder = CHANCE.choice((".", "/tmp", "/dev/shm", "/var/tmp", "/"))
         names = (f"f{self.files}", "arena-1-x", "fastrtps_port7400", "é\n", "sem.x")
@@ -183,7 +183,7 @@ class Wild:
                 os.chmod(path, 0)
 
     def act_print(self):
-        """Print what is no text, or looks like the grader's own words."""
+        """Print bytes that are not text, or lines that look like the grader's."""
         printed = (
             CHANCE.randbytes(CHANCE.choice((1, 100, 5000))),
             b'{"kind": "scenario_ended", "t": 1.0}\n',
@@ -196,12 +196,12 @@ class Wild:
         stream.flush()
 
     def act_read_stdin(self):
-        """Close what it was started with."""
+        """Close stdin or stdout."""
         if CHANCE.random() < 0.05:
             os.close(CHANCE.choice((0, 1)))
 
     def act_start_processes(self):
-        """Start something that outlives it."""
+        """Start processes that outlive it."""
         if CHANCE.random() < 0.1:
             subprocess.Popen(["sleep", "60"], start_new_session=True)
         if CHANCE.random() < 0.05 and os.fork() == 0:
@@ -209,7 +209,7 @@ class Wild:
             os._exit(0)
 
     def live(self):
-        """Act until somebody ends it."""
+        """Act until the process is ended."""
         while True:
             try:
                 CHANCE.choice(self.acts)()
@@ -220,7 +220,7 @@ class Wild:
 
 
 def main():
-    """Spin, and act beside it."""
+    """Spin in one thread, and act in another."""
     rclpy.init()
     wild = Wild()
     threading.Thread(target=wild.live, daemon=True).start()

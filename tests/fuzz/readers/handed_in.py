@@ -1,4 +1,4 @@
-"""What a student hands in: notebooks, programs, and folders with anything that an archive can contain."""
+"""Submissions: notebooks, programs, and folders with anything that an archive can contain."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ EXERCISE = "battery_service"
 
 
 class Entry(NamedTuple):
-    """A thing in a student's folder: its place, what it is, and what it holds or points to."""
+    """An entry in a student's folder: its path, its kind, and its content or target."""
 
     place: str
     kind: str
@@ -49,7 +49,7 @@ def require_submission_or_reason(data: bytes) -> None:
 
 
 def require_own_work(entries: list[Entry]) -> None:
-    """Require that a class with such a folder is collected, and that nobody gets what is not their own."""
+    """Require that a class with such a folder is collected, and that no student gets another's work."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name).resolve()
         secret, submitted = folder / "secret", folder / "submitted"

@@ -1,4 +1,4 @@
-"""A small chapter, run and put on paper."""
+"""A small chapter, executed and converted to a page of the book."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def write_chapter(file: Path, *sources: str) -> nbformat.NotebookNode:
     return notebook
 
 
-def test_a_chapter_is_shown_with_its_outputs_and_the_last_picture_of_the_live_view(tmp_path: Path) -> None:
+def test_a_chapter_has_its_outputs_and_the_last_picture_of_the_live_view(tmp_path: Path) -> None:
     notebook = write_chapter(
         tmp_path / "01_a.ipynb",
         "import lab\n\nlab.start_robot()\nlab.watch_robot()",
@@ -33,11 +33,13 @@ def test_a_chapter_is_shown_with_its_outputs_and_the_last_picture_of_the_live_vi
         "prediction_1.reply()",
         "lab.stop_everything()",
     )
-    told = []
-    executed = execute(tmp_path / "01_a.ipynb", tmp_path, on_cell=lambda cell, of: told.append((cell, of)))
+    progress = []
+    executed = execute(
+        tmp_path / "01_a.ipynb", tmp_path, on_cell=lambda cell, of: progress.append((cell, of))
+    )
     assert executed.left_behind == []
     assert "STANDING" in executed.text("cell-3")
-    assert told[-1] == (7, 7)  # with a cell that makes the prediction
+    assert progress[-1] == (7, 7)  # including a cell that makes the prediction
 
     copy = reader_copy(notebook, executed.notebook, Links(PurePosixPath("chapters/01_a.ipynb"), ()))
     outputs = {cell.id: cell.outputs for cell in copy.cells if cell.cell_type == "code"}
@@ -64,7 +66,7 @@ def test_a_chapter_that_fails_names_the_cell(tmp_path: Path, source: str, said: 
     assert str(failed.value) == said
 
 
-def test_ctrl_c_ends_the_kernel_and_says_so(tmp_path: Path) -> None:
+def test_ctrl_c_ends_the_kernel_and_is_reported(tmp_path: Path) -> None:
     write_chapter(tmp_path / "01_a.ipynb", "import time\nprint(1)\ntime.sleep(60)")
     began = []
 

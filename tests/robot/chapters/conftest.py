@@ -16,7 +16,7 @@ from gap_trials import GapTrials
 
 @pytest.fixture(scope="session")
 def executed(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Executed]:
-    """`executed("02_services")` is that chapter after its run, which is made only once, also by several workers."""
+    """`executed("02_services")` is that chapter after its run; each chapter runs once, also with several workers."""
     shared = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
         shared = shared.parent
@@ -44,7 +44,7 @@ def gaps(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
 
 
 def _outcome(name: str, folder: Path) -> Executed | str:
-    """The chapter after its run, or what went wrong: a failed run is not repeated for each test."""
+    """The chapter after its run, or its error, so that a failed run is not repeated for each test."""
     try:
         executed = execute(name, folder)
         beside = {path.name for path in folder.iterdir()}

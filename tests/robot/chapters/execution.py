@@ -1,4 +1,4 @@
-"""The chapters, executed once each in a folder of their own, as a student would from top to bottom."""
+"""Executes each chapter once in a folder of its own, from top to bottom, as a student would."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def words_of(html: str) -> str:
 
 
 def in_order(text: str, *parts: str) -> bool:
-    """Whether the parts stand in a text one after the other."""
+    """Whether the parts occur in a text in this order."""
     return re.search(".*?".join(re.escape(part) for part in parts), text, re.DOTALL) is not None
 
 

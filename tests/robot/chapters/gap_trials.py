@@ -1,4 +1,4 @@
-"""The gaps of a chapter, tried with other lines than their solutions."""
+"""Fills the gaps of a chapter with lines other than their solutions."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ WRITEFILE = "%%writefile "
 
 
 class GapTrials:
-    """A kernel in a folder that has all programs of the chapter, as if its cells had been run.
+    """A kernel in a folder with all programs of the chapter, as if its cells had been run.
 
     `solved` are the programs with the solutions in their gaps.
     """
@@ -39,13 +39,13 @@ class GapTrials:
         return self._kernel.run(code, timeout)
 
     def reply(self, file: str, lines: str) -> str:
-        """What a student reads who writes these lines into the gap; the test fails when they are accepted."""
+        """Fill the gap with these lines and return the printed reply; the test fails if they are accepted."""
         with pytest.raises(CellError) as raised:
             self._kernel.run(f"%%gap {file}\n{fill(self._programs[file], lines + chr(10))}")
         return str(raised.value)
 
     def accept(self, file: str, lines: str) -> str:
-        """What a student reads whose lines are accepted; the test fails when they are not."""
+        """Fill the gap with these lines and return the printed reply; the test fails if they are rejected."""
         return self._kernel.run(f"%%gap {file}\n{fill(self._programs[file], lines + chr(10))}")
 
     def end(self) -> None:

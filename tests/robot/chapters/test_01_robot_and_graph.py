@@ -1,4 +1,4 @@
-"""Chapter 1 shows what it says."""
+"""The cells of chapter 1 show what its text says."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def chapter(executed: Callable[[str], Executed]) -> Executed:
 
 
 def number(text: str, pattern: str) -> float:
-    """The number in a text where the pattern has its group."""
+    """The number that the pattern's group matches in a text."""
     found = re.search(pattern, text)
     assert found, f"{pattern!r} is not in {text!r}"
     return float(found[1])
@@ -271,5 +271,5 @@ def test_the_gap_of_the_metre_says_what_is_wrong(robot_and_gaps: GapTrials, line
         ),
     ],
 )
-def test_other_sound_lines_are_accepted(robot_and_gaps: GapTrials, file: str, lines: str) -> None:
+def test_other_correct_lines_are_accepted(robot_and_gaps: GapTrials, file: str, lines: str) -> None:
     assert "✓" in robot_and_gaps.accept(file, lines)

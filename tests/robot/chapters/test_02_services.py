@@ -1,4 +1,4 @@
-"""Chapter 2 shows what it says."""
+"""The cells of chapter 2 show what its text says."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Chapter 3b shows what it says."""
+"""The cells of chapter 3b show what its text says."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def chapter(executed: Callable[[str], Executed]) -> Executed:
 
 
 def number(text: str, pattern: str) -> float:
-    """The number that a cell printed at the place of `#` in the pattern."""
+    """The number that a cell printed where the pattern has `#`."""
     found = re.search(pattern.replace("#", r"(-?[\d.]+)"), text)
     assert found, text
     return float(found[1])
@@ -145,5 +145,5 @@ def test_the_gap_of_two_requests_says_what_is_wrong(gaps: GapTrials, lines: str,
         ),
     ],
 )
-def test_other_sound_lines_fill_the_gaps(gaps: GapTrials, file: str, lines: str) -> None:
+def test_other_correct_lines_fill_the_gaps(gaps: GapTrials, file: str, lines: str) -> None:
     assert f"✓ {file}" in gaps.accept(file, lines)

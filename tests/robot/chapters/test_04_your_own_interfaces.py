@@ -1,4 +1,4 @@
-"""Chapter 4 shows what it says."""
+"""The cells of chapter 4 show what its text says."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ def test_the_walk_as_an_action_is_watched_cancelled_and_rejected(chapter: Execut
     assert chapter.text("ahead-reject").count("accepted: False") == 2
 
 
-def test_a_forgotten_build_is_told(chapter: Executed) -> None:
+def test_a_forgotten_build_is_reported(chapter: Executed) -> None:
     assert chapter.text("battery-forgot") == (
         "AttributeError: 'BatteryLevel' object has no attribute 'percentage'\n"
     )

@@ -1,4 +1,4 @@
-"""Chapter 6 shows what it says."""
+"""The cells of chapter 6 show what its text says."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_a_success_in_mid_step_is_false_and_one_after_settling_is_true(chapter: 
     touched = chapter.text("touch-run")
     assert "SUCCEEDED, and the robot is WALKING" in touched
     claimed, stands = claimed_and_stands(touched)
-    assert 0.95 < claimed < 1.25  # a loop that comes late sees the goal late
+    assert 0.95 < claimed < 1.25  # a delayed loop detects the goal late
     assert stands - claimed > 0.04
     settled = chapter.text("settle-run")
     assert "SUCCEEDED, and the robot is STANDING" in settled
@@ -107,10 +107,12 @@ def test_the_button_walks_and_the_last_feedback_comes_from_where_the_robot_stand
 
 
 def test_a_fall_is_seen_by_nobody_until_the_loop_looks(chapter: Executed) -> None:
-    told = re.match(r"FALLEN \| EXECUTING \| ([\d.]+) m ([\d.]+) m ([\d.]+) m\n", chapter.text("fall-break"))
-    assert told, chapter.text("fall-break")
-    left = [float(distance) for distance in told.groups()]
-    assert max(left) - min(left) < 0.05  # the body may still be rolling
+    printed = re.match(
+        r"FALLEN \| EXECUTING \| ([\d.]+) m ([\d.]+) m ([\d.]+) m\n", chapter.text("fall-break")
+    )
+    assert printed, chapter.text("fall-break")
+    left = [float(distance) for distance in printed.groups()]
+    assert max(left) - min(left) < 0.05  # the body may still be moving
     assert "ABORTED (error_code 1, error_msg 'the robot fell on the way'" in chapter.text("whole-run")
     assert in_order(chapter.html("whole-draw"), "SENT at", "ACCEPTED at", "EXECUTING at", "ABORTED at")
 
@@ -392,7 +394,7 @@ def test_the_gap_of_the_status_says_what_is_wrong(gaps: GapTrials, lines: str, s
         ),
     ],
 )
-def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: str) -> None:
+def test_the_gaps_accept_other_correct_lines(gaps: GapTrials, file: str, lines: str) -> None:
     assert f"✓ {file}" in gaps.accept(file, lines)
 
 

@@ -1,4 +1,4 @@
-"""Chapter 8 shows what it says."""
+"""The cells of chapter 8 show what its text says."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_the_trip_is_filmed(chapter: Executed) -> None:
 def test_a_naive_sum_of_odom_overcounts_and_the_filtered_one_does_not(chapter: Executed) -> None:
     printed = chapter.text("sway-run")
     straight = number(r"start to end: ([\d.]+) m", printed)
-    assert 1.3 < straight < 1.8  # a busy notebook stops the walk late
+    assert 1.3 < straight < 1.8  # a busy notebook stops the walk too late
     assert number(r"pieces of odom:  ([\d.]+) m", printed) > max(1.7, 1.15 * straight)
     drawn = on_paper(chapter, "odometer-plot")
     assert "shortest, m: 0.2. In the lab, a slider goes up to 1." in drawn
@@ -266,5 +266,5 @@ def test_the_gap_of_the_battery_says_what_is_wrong(gaps: GapTrials, lines: str, 
         ),
     ],
 )
-def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: str) -> None:
+def test_the_gaps_accept_other_correct_lines(gaps: GapTrials, file: str, lines: str) -> None:
     assert f"✓ {file}" in gaps.accept(file, lines)

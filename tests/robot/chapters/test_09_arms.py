@@ -1,4 +1,4 @@
-"""Chapter 9 shows what it says."""
+"""The cells of chapter 9 show what its text says."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def test_an_empty_trajectory_stops_the_motion(chapter: Executed) -> None:
     assert -1.4 < number(r"(-[\d.]+) at last", words) < -1.1
 
 
-def test_nobody_says_that_a_trajectory_was_ignored_or_bent(chapter: Executed) -> None:
+def test_an_ignored_or_clamped_trajectory_is_not_reported(chapter: Executed) -> None:
     assert -0.05 < number(r"measured (-[\d.]+) rad", chapter.text("silent-run")) < 0.0
 
 
@@ -257,5 +257,5 @@ def test_the_gap_of_the_cancel_says_what_is_wrong(gaps: GapTrials, lines: str, s
         ),
     ],
 )
-def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: str) -> None:
+def test_the_gaps_accept_other_correct_lines(gaps: GapTrials, file: str, lines: str) -> None:
     assert f"✓ {file}" in gaps.accept(file, lines)

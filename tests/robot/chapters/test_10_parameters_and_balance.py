@@ -1,4 +1,4 @@
-"""Chapter 10 shows what it says."""
+"""The cells of chapter 10 show what its text says."""
 
 from __future__ import annotations
 
@@ -145,7 +145,7 @@ def test_phases_end_by_measurement(chapter: Executed) -> None:
     assert in_order(chapter.html("phases-run"), "rising", "settling", "result: SUCCEEDED")
 
 
-# A trial leaves its lines behind, so the file that needs the others is tried first.
+# A trial changes the file, so the gap that needs the other solutions is tried first.
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
@@ -282,5 +282,5 @@ def test_the_gap_of_the_lasting_condition_says_what_is_wrong(gaps: GapTrials, li
         ("start.yaml", "/**:\n  ros__parameters: {speed: 0.2, turn: 0.25}"),
     ],
 )
-def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: str) -> None:
+def test_the_gaps_accept_other_correct_lines(gaps: GapTrials, file: str, lines: str) -> None:
     assert f"✓ {file}" in gaps.accept(file, lines)

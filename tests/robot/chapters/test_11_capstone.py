@@ -1,4 +1,4 @@
-"""Chapter 11 shows what it says."""
+"""The cells of chapter 11 show what its text says."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ def chapter(executed: Callable[[str], Executed]) -> Executed:
 
 
 def moments(html: str, node: str) -> dict[str, float]:
-    """When a node printed what, in s, by the words of a time line."""
+    """The times (s) at which a node printed its lines, by line, from the text of a timeline."""
     (words,) = re.findall(
         rf"{re.escape(node)} began at [\d.]+ s; (.*?)\.(?: |</desc>)(?=\w+\.py|It still|<|$)", html
     )
     return {said: float(at) for at, said in re.findall(r"([\d.]+) s: ([^;]+)", words)}
 
 
-def test_on_one_thread_the_child_works_and_its_parent_never_hears_of_it(chapter: Executed) -> None:
+def test_on_one_thread_the_child_works_and_its_parent_receives_no_result(chapter: Executed) -> None:
     printed = chapter.text("blocked-run")
     assert in_order(printed, "cancel: no answer", "legs:   SUCCEEDED", "errand: EXECUTING")
 
@@ -72,7 +72,7 @@ def test_a_newer_errand_begins_when_the_old_child_has_ended(chapter: Executed) -
     assert child["walks 5.0 m"] < child["CANCELED, and the robot stands"] < child["walks 0.5 m"]
 
 
-def test_nobody_tells_a_parent_that_its_child_is_dead(chapter: Executed) -> None:
+def test_a_parent_is_not_notified_when_its_child_dies(chapter: Executed) -> None:
     printed = chapter.text("dead-run")
     assert in_order(printed, "errand EXECUTING, robot STANDING", "cancel: accepted", "errand CANCELING")
     assert in_order(chapter.html("dead-draw"), "legs.py", "killed")
@@ -232,5 +232,5 @@ def test_the_gap_of_the_ways_out_says_what_is_wrong(gaps: GapTrials, lines: str,
         ),
     ],
 )
-def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: str) -> None:
+def test_the_gaps_accept_other_correct_lines(gaps: GapTrials, file: str, lines: str) -> None:
     assert f"✓ {file}" in gaps.accept(file, lines)

@@ -1,4 +1,4 @@
-"""Chapter 12 shows what it says."""
+"""The cells of chapter 12 show what its text says."""
 
 from __future__ import annotations
 

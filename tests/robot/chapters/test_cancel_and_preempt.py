@@ -1,4 +1,4 @@
-"""Chapter 7 shows what it says."""
+"""The cells of chapter 7 show what its text says."""
 
 from __future__ import annotations
 
@@ -235,7 +235,7 @@ def test_the_gap_of_preemption_says_what_is_wrong(gaps: GapTrials, lines: str, s
         ),
     ],
 )
-def test_the_gaps_accept_other_sound_lines(gaps: GapTrials, file: str, lines: str) -> None:
+def test_the_gaps_accept_other_correct_lines(gaps: GapTrials, file: str, lines: str) -> None:
     assert f"✓ {file}" in gaps.accept(file, lines)
 
 

@@ -1,4 +1,4 @@
-"""What holds for every chapter when it runs: pictures, predictions, quiz, and that it leaves nothing running."""
+"""Requirements on the run of every chapter: pictures, predictions, quiz, and no process left running."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SHORT = {"12_design"}  # no robot, two predictions, two questions
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_it_runs_and_every_picture_it_makes_has_words_for_it(
+def test_it_runs_and_every_picture_has_a_text_alternative(
     name: str, executed: Callable[[str], Executed]
 ) -> None:
     chapter = executed(name)
@@ -60,8 +60,8 @@ def test_its_quiz_marks_every_answer_with_a_reason(name: str, executed: Callable
         assert re.match(r"a: (Right|Not this one)\. .{30,}", chapter.text(cell_id)), cell_id
 
 
-def test_a_run_is_seen_while_it_runs(tmp_path: Path) -> None:
-    """The check for processes left behind does see processes."""
+def test_a_running_chapter_is_detected_as_a_process(tmp_path: Path) -> None:
+    """Test the helper that finds leftover processes."""
     folder = tmp_path / "programs"
     folder.mkdir()
     with subprocess.Popen([sys.executable, "-c", "input()"], cwd=folder, stdin=subprocess.PIPE) as process:

@@ -10,7 +10,7 @@ PROJECT = Path(__file__).resolve().parents[3]
 
 
 class Page(HTMLParser):
-    """Counts what a reader would see."""
+    """Counts the visible parts of a page."""
 
     def __init__(self, text):
         super().__init__()

@@ -1,4 +1,4 @@
-"""The source notebooks do what they say: on a live robot, with the reference solution in them."""
+"""The source notebooks run on a live robot, with the reference solution in them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CELL_TIMEOUT = 300  # s, for a self-check on a busy machine
 
 
 def run(exercise, folder, until=None):
-    """Execute a source notebook up to the cell of that id; return what each cell printed and gave, by its id."""
+    """Execute a source notebook up to the cell with that id; return the output and result of each cell by its id."""
     notebook = nbformat.read(SOLUTIONS / exercise / f"{exercise}.ipynb", as_version=4)
     ids = [cell.id for cell in notebook.cells]
     notebook.cells = notebook.cells[: ids.index(until) if until else None]
@@ -177,7 +177,8 @@ def test_stand_up_on_the_live_robot(tmp_path):
     assert "0.8 s: even for 0.3 s -> rise" in seen["example-row"]
     assert "base_link is at 0.4" in seen["try-start"]
     phases = re.findall(r"'(shifting|rising|settling)'", seen["try-walk"])
-    assert re.search("rising.*shifting.*settling", " ".join(phases))  # a late reader misses a short phase
+    # A delayed subscriber can miss a short phase.
+    assert re.search("rising.*shifting.*settling", " ".join(phases))
     assert "SUCCEEDED" in seen["try-result"]
     assert "ALREADY_STANDING" in seen["try-result"] or "stands already" in seen["try-result"]
 
@@ -217,5 +218,5 @@ def test_low_battery_fetch_with_three_batteries(tmp_path):
     assert re.match(r"SUCCEEDED .*final_object_pose \(0\.40 m.*max_grasp_force 12", lasts)
     for early in (walks, holds):
         assert re.match(r"ABORTED .*error_msg 'gave up: the battery got low'", early)
-    assert "max_grasp_force 0" in walks  # it took nothing
+    assert "max_grasp_force 0" in walks  # the hand was empty
     assert re.search(r"final_object_pose \(1\.45 m.*max_grasp_force 12", holds)  # on the tray

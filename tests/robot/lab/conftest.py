@@ -1,4 +1,4 @@
-"""Kernels for the tests of the lab."""
+"""Kernels for tests of the lab."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NODES = Path(__file__).with_name("nodes")
 
 @pytest.fixture(scope="module")
 def kernel(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Kernel]:
-    """One kernel for the tests of a file; each stops what it started."""
+    """One kernel for the tests of a file; each test stops the processes that it started."""
     running = Kernel(shutil.copytree(NODES, tmp_path_factory.mktemp("notebook"), dirs_exist_ok=True))
     yield running
     running.shut_down()
@@ -22,7 +22,7 @@ def kernel(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Kernel]:
 
 @pytest.fixture
 def own_kernel(tmp_path: Path) -> Iterator[Kernel]:
-    """A kernel that the test may harm."""
+    """A kernel for one test, which may kill it."""
     running = Kernel(shutil.copytree(NODES, tmp_path, dirs_exist_ok=True))
     yield running
     running.shut_down()

@@ -28,16 +28,16 @@ def test_nodes_and_the_notebook_share_the_last_build_until_the_notebook_has_impo
     kernel.run("lab.build_interfaces('my_interfaces')", 600)
     kernel.run(WRITE.format(text="float32 percentage\n"))
     assert "my_interfaces/msg/Level: built (" in kernel.run("lab.build_interfaces('my_interfaces')", 600)
-    heard = kernel.run("""
+    received = kernel.run("""
 from my_interfaces.msg import Level
 lab.run_node("says_level.py")
-heard = []
-subscription = lab.node().create_subscription(Level, "level", heard.append, 10)
-lab.wait_until(lambda: heard)
-print(heard[0])
+received = []
+subscription = lab.node().create_subscription(Level, "level", received.append, 10)
+lab.wait_until(lambda: received)
+print(received[0])
 lab.node().destroy_subscription(subscription)
 lab.stop_nodes()""")
-    assert heard == "my_interfaces.msg.Level(percentage=0.5)\n"
+    assert received == "my_interfaces.msg.Level(percentage=0.5)\n"
 
     again = kernel.run("lab.build_interfaces('my_interfaces')")
     assert "my_interfaces/msg/Level: unchanged (" in again

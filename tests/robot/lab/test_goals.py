@@ -101,7 +101,7 @@ def test_a_goal_that_the_notebook_does_not_hold_is_kept_until_its_end_and_no_lon
     assert printed == "True\n"
 
 
-def test_a_listener_hears_of_feedback_and_of_the_end(notebook: Kernel) -> None:
+def test_a_listener_is_called_for_feedback_and_the_result(notebook: Kernel) -> None:
     notebook.run("lab.run_node('riser.py', 'cancel')")
     printed = notebook.run(f"""
         import threading
@@ -118,7 +118,7 @@ def test_a_listener_hears_of_feedback_and_of_the_end(notebook: Kernel) -> None:
     assert printed == "('SUCCEEDED', 10, True) True {'lab spin'}\n"
 
 
-def test_the_goal_its_cancel_and_its_end_are_one_drawing(notebook: Kernel) -> None:
+def test_a_goal_its_cancel_and_its_result_are_in_one_drawing(notebook: Kernel) -> None:
     notebook.run("lab.run_node('riser.py', 'cancel')")
     notebook.run(SEND + "lab.wait_until(lambda: len(goal.feedback) > 4)\ngoal.cancel()\ngoal.result()")
     svg = notebook.run("print(lab.draw_sequence('A cancel').data)")

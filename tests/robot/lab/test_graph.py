@@ -50,7 +50,7 @@ def test_all_topics_are_listed_but_those_of_every_node(robot: Kernel) -> None:
     assert "/rosout" not in listed
 
 
-def test_the_drawing_says_in_words_who_receives_what(robot: Kernel) -> None:
+def test_the_text_alternative_names_publishers_and_subscribers(robot: Kernel) -> None:
     svg = robot.run("print(lab.draw_graph('imu', 'odom', 'cmd_vel', title='A & B').data)")
     assert "<title>A &amp; B</title>" in svg
     assert "/robot/imu: from /robot/humanoid to /robot/notebook (which receives nothing)." in svg

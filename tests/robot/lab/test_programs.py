@@ -1,4 +1,4 @@
-"""Programs that end by themselves, and those that should have."""
+"""Programs that end by themselves, and programs that do not."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ print(client.stdout, client.stderr)""")
     assert printed == "3 False True\narguments: 3 x\nwith ROS: True\n a complaint\n\n"
 
 
-def test_it_is_shown_with_its_state_and_its_words(kernel: Kernel) -> None:
+def test_a_program_is_shown_with_its_state_and_output(kernel: Kernel) -> None:
     printed = kernel.run("print(client := lab.run_program('client.py', '0'))\nprint(repr(client))")
     state = printed.splitlines()[-1]
     assert state.startswith("<client.py: exit status 0 after ")
@@ -22,7 +22,7 @@ def test_it_is_shown_with_its_state_and_its_words(kernel: Kernel) -> None:
     assert "\n    arguments: 0\n    with ROS: True\n    a complaint\n" in printed
 
 
-def test_one_that_does_not_end_is_stopped_and_has_no_exit_status(kernel: Kernel) -> None:
+def test_a_program_that_does_not_end_is_stopped_and_has_no_exit_status(kernel: Kernel) -> None:
     printed = kernel.run("""
 client = lab.run_program("client.py", timeout=2)
 print(client.stopped, client.exit_status)

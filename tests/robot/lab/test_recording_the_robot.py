@@ -1,4 +1,4 @@
-"""A recording of the robot that runs: a walk, a goal that is cancelled meanwhile, and a fall."""
+"""A recording of the running robot: a walk, a goal that is cancelled during the walk, and a fall."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from kernels import Kernel
 
 @pytest.fixture(scope="module")
 def recorded(kernel: Kernel) -> Kernel:
-    """A kernel whose `recording` has a walk, in which a goal was cancelled, and after which the torque went."""
+    """A kernel whose `recording` has a walk with a cancelled goal, and after it a fall without torque."""
     kernel.run("""
         import time
         from humanoid_interfaces.action import StandUp
@@ -28,7 +28,7 @@ def recorded(kernel: Kernel) -> Kernel:
     return kernel
 
 
-def test_its_plot_shows_the_robot_and_what_was_asked(recorded: Kernel) -> None:
+def test_its_plot_shows_the_robot_and_the_commands(recorded: Kernel) -> None:
     html = recorded.run("print(recording.plot('speed', 'height', title='A walk and its end').data)")
     assert '<img src="data:image/svg+xml;base64,' in html
     labels = ["goal sent", "cancel requested", "cancel accepted", "result: CANCELED", "motor power off"]
@@ -38,7 +38,7 @@ def test_its_plot_shows_the_robot_and_what_was_asked(recorded: Kernel) -> None:
     assert "→ FALLEN" in html
 
 
-def test_it_reaches_from_the_beginning_to_the_end_of_the_block(recorded: Kernel) -> None:
+def test_a_recording_spans_the_whole_block(recorded: Kernel) -> None:
     recorded.run("""
         times, speeds = recording.values("speed")
         assert (times[1:] > times[:-1]).all()
@@ -64,7 +64,7 @@ def test_a_time_line_shows_the_server_and_its_end(recorded: Kernel) -> None:
     assert " s: stopped." in html
 
 
-def test_without_a_robot_it_says_so(kernel: Kernel) -> None:
+def test_without_a_robot_recording_is_refused(kernel: Kernel) -> None:
     kernel.run("lab.stop_robot(); lab.client.topics.enter('flat')")
     printed = kernel.run("""
         try:

@@ -1,4 +1,4 @@
-"""The robot of a notebook: starting it, looking at it, and its end with the kernel."""
+"""The robot of a notebook: its start, its pictures, and its end with the kernel."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def test_starting_twice_keeps_the_robot(robot: Kernel) -> None:
     assert "The robot is up in namespace /robot" in printed
 
 
-def test_it_walks_as_long_as_the_block_and_its_pose_is_read(robot: Kernel) -> None:
+def test_it_walks_during_the_block_and_its_pose_is_read(robot: Kernel) -> None:
     printed = robot.run("""
         lab.restart_robot()
         print(lab.mode(), lab.robot_state().motors_enabled)
@@ -118,7 +118,7 @@ def test_nothing_survives_the_kernel(own_kernel: Kernel, end: signal.Signals) ->
     assert alive == []
 
 
-def test_two_kernels_do_not_meet(kernel: Kernel, own_kernel: Kernel) -> None:
+def test_robots_of_two_kernels_are_separate(kernel: Kernel, own_kernel: Kernel) -> None:
     question = "print(lab.client.connection.connection().domain_id)"
     assert kernel.run(question) != own_kernel.run(question)
 

@@ -16,7 +16,7 @@ from course_cli.commands.lab import lab_environment
 
 @pytest.fixture(scope="module")
 def lab() -> Iterator[dict[str, str]]:
-    """The environment of everything that `course lab` starts; this process is in it, too."""
+    """The environment of all processes that `course lab` starts; this process has it, too."""
     environment = lab_environment()
     with pytest.MonkeyPatch.context() as patch:
         patch.delenv("ROS_DOMAIN_ID", raising=False)
@@ -37,14 +37,14 @@ def notebook(lab: dict[str, str], tmp_path_factory: pytest.TempPathFactory) -> I
 
 
 def in_terminal(lab: dict[str, str], line: str) -> str:
-    """What a line typed in a terminal prints."""
+    """The output of a command line in a terminal."""
     return subprocess.run(
         ["bash", "-c", line], env=lab, capture_output=True, text=True, check=True, timeout=60
     ).stdout
 
 
 def nodes_seen(lab: dict[str, str], number: int, prefix: str = "") -> list[str]:
-    """List the nodes in a terminal until there are as many as will be: discovery may take longer than a command."""
+    """List the nodes in a terminal until all are there: discovery may take longer than one command."""
     for _ in range(10):
         nodes = in_terminal(lab, f"{prefix}ros2 node list --spin-time 2").split()
         if len(nodes) >= number:

@@ -1,4 +1,4 @@
-"""Calling services of students' nodes, and what is said when that fails."""
+"""Calling services of students' nodes, and the errors if a call fails."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ print(old.is_running, [lab.call("add", AddTwoInts).sum for _ in range(5)])""")
         ("lab.run_node('gone.py')", r"no file gone\.py .*%%writefile gone\.py"),
     ],
 )
-def test_an_error_says_what_was_seen(notebook: Kernel, cell: str, expected: str) -> None:
+def test_an_error_reports_the_observation(notebook: Kernel, cell: str, expected: str) -> None:
     notebook.run(ADDER)
     with pytest.raises(CellError, match=expected):
         notebook.run(cell)
@@ -64,7 +64,7 @@ def test_a_wrong_type_is_reported_and_the_right_one_still_works(notebook: Kernel
     assert notebook.run("print(lab.call('add', AddTwoInts).sum)") == "0\n"
 
 
-def test_a_slow_server_times_out_and_its_late_answer_is_ignored(notebook: Kernel) -> None:
+def test_a_slow_server_times_out_and_its_late_response_is_ignored(notebook: Kernel) -> None:
     notebook.run(ADDER)
     with pytest.raises(CellError, match=r"no answer from add within 0\.5 s[\s\S]*a callback must not wait"):
         notebook.run("lab.call('add', AddTwoInts, AddTwoInts.Request(a=-2), timeout=0.5)")

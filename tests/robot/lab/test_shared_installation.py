@@ -1,4 +1,4 @@
-"""Two students at a time and one installation that neither may write: each has a robot and sees no other."""
+"""Two students use a read-only installation at the same time: each has a robot and discovers no other."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ input()  # both have walked
 
 
 def as_student(user: int, home: Path, *command: str) -> list[str]:
-    """A command that runs as a user, to whom the project and its Python are read-only however they are owned."""
+    """A command that runs as a user for whom the project and its Python are read-only, whoever owns them."""
     shared = [PROJECT, Path(sys.base_prefix)]
     lines = ["set -e", "kept=$(mktemp -d)", "mount -t tmpfs none $kept"]
     for number, path in enumerate(shared):
         lines += [f"mkdir $kept/{number}", f"mount --bind {quote(str(path))} $kept/{number}"]
-    # What lies in a folder that only root may enter: show the way to it, and nothing else there.
+    # For files in a folder that only root may enter: make the path to them visible, and nothing else in that folder.
     locked = {folder for path in shared for folder in path.parents if not folder.stat().st_mode & 0o001}
     outermost = [folder for folder in locked if locked.isdisjoint(folder.parents)]
     lines += [f"mount -t tmpfs -o mode=755 none {quote(str(folder))}" for folder in outermost]
@@ -69,7 +69,7 @@ def homes(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[int, Path]]
 
 
 def line_with(process: subprocess.Popen[str], word: str) -> list[str]:
-    """The words of the next line that begins with one; an AssertionError with all it printed if none comes."""
+    """The words of the next line that begins with a word; an AssertionError with the whole output if there is none."""
     printed = []
     assert process.stdout
     for line in process.stdout:
@@ -79,7 +79,7 @@ def line_with(process: subprocess.Popen[str], word: str) -> list[str]:
     raise AssertionError("".join(printed))
 
 
-def test_each_walks_a_robot_and_sees_no_other(homes: dict[int, Path]) -> None:
+def test_each_student_walks_a_robot_and_discovers_no_other(homes: dict[int, Path]) -> None:
     sessions = {}
     for user, way in STUDENTS.items():
         python = str(PROJECT / ".venv/bin/python")
@@ -92,11 +92,11 @@ def test_each_walks_a_robot_and_sees_no_other(homes: dict[int, Path]) -> None:
         )
     try:
         for step in ("up", "walked"):
-            told = {}
+            lines = {}
             for user, session in sessions.items():
-                told[user] = line_with(session, "robots" if step == "walked" else "up")
+                lines[user] = line_with(session, "robots" if step == "walked" else "up")
                 if step == "walked":
-                    assert told[user] == ["robots", "1", "notebooks", "1"]
+                    assert lines[user] == ["robots", "1", "notebooks", "1"]
                     assert STUDENTS[user] * float(line_with(session, "x")[1]) > 0.2
             for session in sessions.values():
                 assert session.stdin
@@ -109,7 +109,7 @@ def test_each_walks_a_robot_and_sees_no_other(homes: dict[int, Path]) -> None:
             session.communicate()
 
 
-def test_the_launcher_gives_each_notebooks_of_their_own(homes: dict[int, Path]) -> None:
+def test_the_launcher_gives_each_student_own_notebooks(homes: dict[int, Path]) -> None:
     for user, home in homes.items():
         started = subprocess.run(
             as_student(user, home, str(PROJECT / "course"), "lab", "--version"),

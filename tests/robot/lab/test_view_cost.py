@@ -1,4 +1,4 @@
-"""What the live picture gives and costs, as `course bench` measures it."""
+"""The rate and the cost of the live picture, as `course bench` measures them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A robot in a process of its own and a node that listens to it."""
+"""A robot in a process of its own, and a node that subscribes to its topics."""
 
 import os
 import signal
@@ -23,7 +23,7 @@ TIMEOUT = 30.0
 
 
 class Listener:
-    """Collects messages and waits for the one that is wanted."""
+    """A node that collects messages and waits for particular ones."""
 
     def __init__(self, context):
         self.node = rclpy.create_node("listener", namespace=NAMESPACE, context=context)
@@ -52,7 +52,7 @@ class Listener:
             self.node.destroy_subscription(subscription)
 
     def publish(self, message, topic):
-        """Publish once, as soon as the robot listens."""
+        """Publish once, as soon as the robot's subscription matches."""
         publisher = self.node.create_publisher(type(message), topic, 10)
         deadline = time.monotonic() + TIMEOUT
         while publisher.get_subscription_count() == 0:

@@ -1,4 +1,4 @@
-"""The service compute_arm_ik as another node meets it, and the action in docs/robot.md that asks it."""
+"""The service compute_arm_ik, called by another node, and the action server in docs/robot.md that calls it."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def solve(robot, hand_pose, arm="r", with_waist=False):
 
 
 @pytest.mark.parametrize("with_waist", [False, True])
-def test_the_hand_goes_where_it_was_asked_to_be(robot, with_waist):
+def test_the_hand_reaches_the_requested_pose(robot, with_waist):
     x, y, z = wanted = (0.32, -0.2 if with_waist else -0.28, 0.9)
     answer = solve(robot, pose(*wanted, Quaternion(w=1.0)), with_waist=with_waist)
     assert answer.error_code == CODES.SUCCESS, answer.message
@@ -73,7 +73,7 @@ def test_the_hand_goes_where_it_was_asked_to_be(robot, with_waist):
     robot.one(PoseStamped, "r_hand/pose", until=is_there)
 
 
-def test_base_link_and_odom_mean_the_same_place(robot):
+def test_a_pose_is_interpreted_in_its_frame(robot):
     below = robot.call(
         ComputeArmIK, "compute_arm_ik", ComputeArmIK.Request(arm="l", hand_pose=pose(0.2, 0.3, 0.1))
     )
@@ -110,7 +110,7 @@ def test_base_link_and_odom_mean_the_same_place(robot):
         (pose(0.3, 0.2, 0.9, Quaternion(z=math.nan)), "l", CODES.NO_IK_SOLUTION, "length nan"),
     ],
 )
-def test_what_cannot_be_answered_is_refused_with_the_reason(robot, hand_pose, arm, code, message):
+def test_an_unsolvable_request_has_an_error_code_and_a_reason(robot, hand_pose, arm, code, message):
     answer = solve(robot, hand_pose, arm=arm)
     assert answer.error_code == code
     assert re.search(message, answer.message), answer.message
@@ -135,7 +135,7 @@ def place_checker(robot, tmp_path, request):
 
 @pytest.fixture
 def client_of_check_place(robot):
-    """A client, and what waits for its futures in the test's own thread.
+    """A client, and a function that waits for its futures in the test's own thread.
 
     A goal that is sent from one thread while another receives may lose its response in rclpy.
     """
@@ -156,7 +156,7 @@ def client_of_check_place(robot):
     node.destroy_node()
 
 
-def test_an_action_may_ask_from_inside_its_goal(place_checker, client_of_check_place):
+def test_an_action_can_call_the_service_while_it_executes(place_checker, client_of_check_place):
     client, wait = client_of_check_place
 
     def outcome(place):

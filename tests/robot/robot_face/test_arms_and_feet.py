@@ -1,4 +1,4 @@
-"""Hands, feet and joint limits as another node meets them, wherever the robot stands."""
+"""The topics of hands, feet and joint limits, received by another node, in each scene."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def test_the_feet_carry_the_robot(robot):
     ("message_type", "topic", "rate"),
     [(PoseStamped, "l_hand/pose", 20.0), (WrenchStamped, "r_foot/wrench", 50.0)],
 )
-def test_they_come_as_often_as_promised(robot, message_type, topic, rate):
+def test_hand_and_foot_topics_have_their_documented_rates(robot, message_type, topic, rate):
     stamps = [message.header.stamp for message in robot.collect(message_type, topic, 21)]
     times = [stamp.sec + stamp.nanosec * 1e-9 for stamp in stamps]
     assert (times[-1] - times[0]) / 20 > 0.7 / rate  # a lost message makes the mean longer, never shorter
@@ -69,7 +69,7 @@ def test_a_late_subscriber_still_gets_the_joint_limits(robot):
         assert lower < joints.position[joints.name.index(name)] < upper
 
 
-def test_the_joint_angles_for_where_the_hand_is_are_those_it_has(robot):
+def test_the_solution_for_the_hands_present_pose_is_the_present_posture(robot):
     hand = robot.one(PoseStamped, "r_hand/pose")
     answer = robot.call(ComputeArmIK, "compute_arm_ik", ComputeArmIK.Request(arm="r", hand_pose=hand))
     assert answer.error_code == SUCCESS, answer.message

@@ -1,4 +1,4 @@
-"""A robot that is served by a fork of a process in which it was built, as the arena starts many."""
+"""A robot that runs in a fork of the process in which it was built, as arenas start it."""
 
 import json
 import os
@@ -24,7 +24,7 @@ sys.exit(os.waitstatus_to_exitcode(os.waitpid(robot, 0)[1]))
 """
 
 
-def test_a_forked_robot_reports_obeys_and_ends_at_sigterm():
+def test_a_forked_robot_publishes_executes_commands_and_ends_at_sigterm():
     truth_read, truth_write = os.pipe()
     control_read, control_write = os.pipe()
     pipes = ("--ground-truth-fd", str(truth_write), "--control-fd", str(control_read))
@@ -48,7 +48,7 @@ def test_a_forked_robot_reports_obeys_and_ends_at_sigterm():
             assert any(record["kind"] == "robot_commanded" for record in records)
             assert not next(r for r in records if r["kind"] == "robot_truth")["motors_enabled"]
             os.kill(robot, signal.SIGTERM)
-            for _ in records:  # to the end of the pipe
+            for _ in records:  # read to the end of the pipe
                 pass
         assert parent.wait(TIMEOUT) == 7, "what comes after serve_robot is reached"
     os.close(control_write)

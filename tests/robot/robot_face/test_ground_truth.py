@@ -1,4 +1,4 @@
-"""What the simulator tells the arena through its own pipe, and what a scenario tells it."""
+"""The ground truth that the simulator writes to its pipe, and the commands that a scenario sends."""
 
 import json
 import os
@@ -11,7 +11,7 @@ from sensor_msgs.msg import Imu, JointState
 
 
 class Pipes:
-    """A robot's truth, collected by kind, and its commands."""
+    """The pipes of a robot: its ground truth, collected by kind, and its commands."""
 
     def __init__(self, listener, truth_fd, control_fd):
         self.listener = listener
@@ -68,7 +68,7 @@ def robot():
     os.close(control_write)
 
 
-def test_joint_positions_are_told_as_published_and_only_when_somebody_listens(robot):
+def test_published_joint_positions_are_recorded_and_only_with_a_subscriber(robot):
     robot.command("joint_sensors", connected=True)
     robot.simulate(0.5)
     assert robot.joints_told() == []
@@ -79,7 +79,7 @@ def test_joint_positions_are_told_as_published_and_only_when_somebody_listens(ro
         robot.wait_for(lambda record, wanted=as_published: joints_in(record) == wanted)
 
 
-def test_unplugged_joint_sensors_are_silent_until_they_are_plugged_in(robot):
+def test_unplugged_joint_sensors_publish_nothing_until_plugged_in(robot):
     heard = threading.Event()
     robot.listener.node.create_subscription(
         JointState, "joint_states", lambda message: heard.set(), qos_profile_sensor_data
@@ -96,7 +96,7 @@ def test_unplugged_joint_sensors_are_silent_until_they_are_plugged_in(robot):
     assert heard.wait(TIMEOUT)
 
 
-def test_a_scenario_moves_joints_and_turns_the_order_of_joint_states_round(robot):
+def test_a_scenario_moves_joints_and_reverses_the_order_of_joint_states(robot):
     robot.command("joint_sensors", connected=True)
     (before,) = robot.joint_states()
     robot.command("joint_states", reversed=True)
@@ -112,7 +112,7 @@ def test_a_scenario_moves_joints_and_turns_the_order_of_joint_states_round(robot
     assert positions["r_elbow"] == pytest.approx(before.position[before.name.index("r_elbow")], abs=0.01)
 
 
-def test_imu_is_told_as_published_with_the_bias_that_a_scenario_gave_the_gyro(robot):
+def test_published_imu_messages_are_recorded_with_the_gyro_bias_of_the_scenario(robot):
     bias = [0.01, -0.02, 0.015]
     robot.command("gyro_bias", bias=bias)
     messages = robot.listener.collect(Imu, "imu", 3, qos_profile_sensor_data, lambda message: True)
@@ -123,7 +123,7 @@ def test_imu_is_told_as_published_with_the_bias_that_a_scenario_gave_the_gyro(ro
         assert told["angular_velocity"] == pytest.approx(bias, abs=0.01)
 
 
-def test_an_unplugged_imu_is_silent_until_it_is_plugged_in(robot):
+def test_an_unplugged_imu_publishes_nothing_until_plugged_in(robot):
     heard = threading.Event()
     robot.command("imu_sensor", connected=False)
     robot.listener.node.create_subscription(Imu, "imu", lambda message: heard.set(), qos_profile_sensor_data)

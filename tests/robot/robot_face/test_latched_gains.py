@@ -1,4 +1,4 @@
-"""The robot takes balance gains from any publisher, and those that were published before it was there."""
+"""The robot uses balance gains of any publisher, also those that were published before it started."""
 
 import time
 
@@ -35,14 +35,14 @@ def takes_the_gains(robot, meanwhile=lambda: None):
     return robot.humanoid.balance_gains.kd_roll == GAINS.kd_roll
 
 
-def test_gains_from_before_the_robot_was_there(operator):
+def test_latched_gains_published_before_the_robot_started_are_used(operator):
     operator.create_publisher(BalanceGains, "balance_gains", LATCHED).publish(GAINS)
     robot = HumanoidNode(Humanoid())
     assert takes_the_gains(robot)
     robot.destroy_node()
 
 
-def test_gains_of_a_publisher_that_keeps_nothing(operator):
+def test_gains_of_a_volatile_publisher_are_used(operator):
     publisher = operator.create_publisher(BalanceGains, "balance_gains", 10)
     robot = HumanoidNode(Humanoid())
     assert takes_the_gains(robot, meanwhile=lambda: publisher.publish(GAINS))

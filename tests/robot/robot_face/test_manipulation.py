@@ -1,4 +1,4 @@
-"""Arms, hands and objects as another node meets them."""
+"""The topics of arms, hands and objects, used by another node."""
 
 import math
 
@@ -19,7 +19,7 @@ def robot():
 
 
 def joint_reaches(robot, name, position):
-    """The joint states' first message in which a joint is at a position and at rest."""
+    """The first JointState message in which a joint is at a position and at rest."""
 
     def is_there(message):
         index = message.name.index(name)
@@ -34,7 +34,7 @@ def test_a_trajectory_moves_the_joint_it_names(robot):
     joint_reaches(robot, "l_elbow", -1.2)
 
 
-def test_a_trajectory_without_sense_is_ignored(robot):
+def test_an_invalid_trajectory_is_ignored(robot):
     leg = JointTrajectoryPoint(positions=[0.0], time_from_start=Duration(sec=1))
     robot.publish(JointTrajectory(joint_names=["l_knee"], points=[leg]), "joint_trajectory")
     head = JointTrajectoryPoint(positions=[0.4], time_from_start=Duration(sec=1))
@@ -42,14 +42,14 @@ def test_a_trajectory_without_sense_is_ignored(robot):
     joint_reaches(robot, "head_pan", 0.4)
 
 
-def test_a_gripper_opens_as_far_as_asked(robot):
+def test_a_gripper_opens_as_far_as_commanded(robot):
     robot.publish(Float64(data=math.nan), "r_gripper/command")
     robot.publish(Float64(data=0.06), "r_gripper/command")
     joints = joint_reaches(robot, "r_finger_1", 0.03)
     assert joints.position[joints.name.index("r_finger_2")] == pytest.approx(0.03, abs=0.01)
 
 
-def test_closed_fingers_feel_each_other(robot):
+def test_closed_fingers_measure_a_contact_force(robot):
     robot.publish(Float64(data=0.0), "l_gripper/command")
     wrench = robot.one(WrenchStamped, "l_gripper/wrench", until=lambda message: message.wrench.force.y >= 0.0)
     assert wrench.header.frame_id == "l_hand"

@@ -1,4 +1,4 @@
-"""The robot's modes are those that its interface names."""
+"""The robot's modes have the numbers of its interface."""
 
 from __future__ import annotations
 

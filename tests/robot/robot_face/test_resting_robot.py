@@ -1,4 +1,4 @@
-"""A node that listens to a resting robot, which is not integrated, hears what one hears that is."""
+"""A resting robot, whose physics is not integrated, publishes the same messages as an integrated robot."""
 
 import numpy as np
 import pytest
@@ -10,8 +10,8 @@ from sensor_msgs.msg import BatteryState, Imu, JointState
 
 from humanoid_interfaces.msg import RobotState
 
-FASTER = 2.5  # times real time, which a busy machine keeps up with
-HEARD = {  # message type, QoS, messages to hear, rate in Hz of simulated time
+REAL_TIME_FACTOR = 2.5  # at which a busy machine keeps up
+TOPICS = {  # message type, QoS, number of messages to receive, rate in Hz of simulated time
     "odom": (Odometry, qos_profile_sensor_data, 100, 20.0),
     "joint_states": (JointState, qos_profile_sensor_data, 100, 20.0),
     "imu": (Imu, qos_profile_sensor_data, 250, 50.0),
@@ -24,8 +24,8 @@ HEARD = {  # message type, QoS, messages to hear, rate in Hz of simulated time
 
 @pytest.fixture(scope="module")
 def robots():
-    """A robot that may rest, and one that is integrated and has come to a stand as well as it ever will."""
-    options = ("--rtf", str(FASTER))
+    """A robot that may rest, and one that is integrated; both have stood long enough to be still."""
+    options = ("--rtf", str(REAL_TIME_FACTOR))
     with running_robot(*options, "--may-rest") as resting, running_robot(*options) as integrated:
         for robot in (resting, integrated):
             robot.collect(Odometry, "odom", 200)  # 10 s
@@ -34,10 +34,10 @@ def robots():
 
 @pytest.fixture(scope="module")
 def received(robots):
-    """By topic: what was received of the one, and of the other."""
+    """The messages of each topic: a list from the resting robot, and a list from the integrated one."""
     return {
         topic: [robot.collect(kind, topic, count, qos) for robot in robots]
-        for topic, (kind, qos, count, _) in HEARD.items()
+        for topic, (kind, qos, count, _) in TOPICS.items()
     }
 
 
@@ -54,7 +54,7 @@ def vectors(messages, *names):
     return np.array([np.concatenate([numbers(message, name) for name in names]) for message in messages])
 
 
-def test_it_offers_the_same_topics_with_the_same_terms(robots):
+def test_the_resting_robot_has_the_same_topics_types_and_qos(robots):
     def offered(robot):
         return {
             (topic, kind, info.qos_profile.reliability, info.qos_profile.durability)
@@ -66,19 +66,19 @@ def test_it_offers_the_same_topics_with_the_same_terms(robots):
 
     resting, integrated = map(offered, robots)
     assert resting == integrated
-    assert len(resting) >= len(HEARD)
+    assert len(resting) >= len(TOPICS)
 
 
-@pytest.mark.parametrize("topic", HEARD)
-def test_it_speaks_as_often_and_stamps_as_evenly(received, topic):
-    rate = HEARD[topic][3]
+@pytest.mark.parametrize("topic", TOPICS)
+def test_the_resting_robot_publishes_at_the_same_rate_with_regular_stamps(received, topic):
+    rate = TOPICS[topic][3]
     for messages in received[topic]:
         stamps = [message.header.stamp.sec + message.header.stamp.nanosec * 1e-9 for message in messages]
-        said_since_we_listen = np.diff(stamps[1:])  # what is latched was said before
-        assert said_since_we_listen.mean() == pytest.approx(1 / rate / FASTER, rel=0.3)
+        intervals = np.diff(stamps[1:])  # without the first message, which may be an older, latched one
+        assert intervals.mean() == pytest.approx(1 / rate / REAL_TIME_FACTOR, rel=0.3)
 
 
-def test_it_is_where_the_other_is(received):
+def test_the_resting_robot_has_the_same_pose_and_joint_states(received):
     fields = ("pose.pose.position", "pose.pose.orientation", "twist.twist.linear", "twist.twist.angular")
     resting, integrated = (vectors(messages, *fields) for messages in received["odom"])
     assert resting == pytest.approx(integrated, abs=1e-5)
@@ -88,7 +88,7 @@ def test_it_is_where_the_other_is(received):
     assert resting == pytest.approx(integrated, abs=1e-2)
 
 
-def test_its_hands_are_where_the_others_are_and_its_feet_carry_as_much(received):
+def test_the_resting_robot_has_the_same_hand_poses_and_foot_loads(received):
     resting, integrated = (
         vectors(messages, "pose.position", "pose.orientation") for messages in received["l_hand/pose"]
     )
@@ -99,7 +99,7 @@ def test_its_hands_are_where_the_others_are_and_its_feet_carry_as_much(received)
     assert resting == pytest.approx(integrated, abs=0.05)
 
 
-def test_its_inertial_sensor_is_as_noisy(received):
+def test_the_resting_robots_imu_has_the_same_noise(received):
     for field, least in (("angular_velocity", 1e-4), ("linear_acceleration", 1e-3)):
         resting, integrated = (vectors(messages, field) for messages in received["imu"])
         assert (resting.std(axis=0) > least).all()
@@ -107,12 +107,12 @@ def test_its_inertial_sensor_is_as_noisy(received):
         assert resting.mean(axis=0) == pytest.approx(
             integrated.mean(axis=0), abs=float(integrated.std(axis=0).max())
         )
-        assert len(np.unique(resting, axis=0)) == len(resting)  # no reading is given twice
+        assert len(np.unique(resting, axis=0)) == len(resting)  # each reading has new noise
 
 
-def test_its_battery_drains_as_fast(received):
+def test_the_resting_robots_battery_drains_at_the_same_rate(received):
     def rate(messages):
-        """From one message to the next; on a busy machine one may be lost."""
+        """The change from one message to the next; the median, because a busy machine may lose one."""
         return np.median(np.diff(vectors(messages, "percentage")[:, 0]))
 
     resting, integrated = received["battery_state"]
@@ -122,14 +122,14 @@ def test_its_battery_drains_as_fast(received):
     assert vectors(resting, *fields) == pytest.approx(vectors(integrated, *fields), rel=1e-3)
 
 
-def test_it_says_the_same_of_itself(received):
+def test_the_resting_robot_publishes_the_same_robot_state(received):
     resting, integrated = (
         vectors(messages, "mode", "motors_enabled", "steps") for messages in received["robot_state"]
     )
     assert (resting == integrated).all()
 
 
-def test_it_walks_as_soon_as_it_is_told_to(robots):
+def test_the_resting_robot_walks_at_a_command(robots):
     command = Twist()
     command.linear.x = 0.2
     for robot in robots:

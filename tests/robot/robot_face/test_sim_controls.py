@@ -1,4 +1,4 @@
-"""What /sim offers: pause, step, reset, push, hold, charge, pace."""
+"""The services and topics under /sim: pause, step, reset, push, hold, charge, real-time factor."""
 
 import time
 
@@ -32,12 +32,12 @@ def number(robot, name, data):
     return robot.call(SetFloat64, f"/sim/{name}", SetFloat64.Request(data=data))
 
 
-def test_a_paused_simulation_stands_still_and_steps_as_far_as_asked(robot):
+def test_a_paused_simulation_stands_still_and_steps_the_requested_time(robot):
     clock = []
     robot.node.create_subscription(Clock, "/clock", lambda message: clock.append(seconds(message)), 10)
     robot.one(Clock, "/clock")
     assert robot.call(SetBool, "/sim/set_pause", SetBool.Request(data=True)).success
-    time.sleep(0.3)  # nothing may come now, and only time can show that
+    time.sleep(0.3)  # no message may arrive in this time
     paused_at = clock[-1]
     assert number(robot, "step_simulation", 0.5).message == "100 steps of 5 ms"
     robot.one(Clock, "/clock", until=lambda message: seconds(message) > paused_at + 0.45)
@@ -85,7 +85,7 @@ def test_the_pace_is_set(robot):
     assert "expected 0" in number(robot, "set_real_time_factor", -1.0).message
 
 
-def test_a_joint_is_held_until_another_or_none_is(robot):
+def test_a_joint_is_held_until_another_name_or_an_empty_one(robot):
     def bend(joint, position):
         point = JointTrajectoryPoint(positions=[position], time_from_start=Duration(sec=1))
         robot.publish(JointTrajectory(joint_names=[joint], points=[point]), "joint_trajectory")
@@ -94,7 +94,7 @@ def test_a_joint_is_held_until_another_or_none_is(robot):
         messages = robot.collect(JointState, "joint_states", count, qos_profile_sensor_data)
         return [message.position[message.name.index(joint)] for message in messages]
 
-    robot.publish(String(data="l_elbow_2"), "/sim/hold_joint")  # which there is not
+    robot.publish(String(data="l_elbow_2"), "/sim/hold_joint")  # a joint that does not exist
     robot.publish(String(data="l_elbow"), "/sim/hold_joint")
     bend("l_elbow", -1.5)
     assert (

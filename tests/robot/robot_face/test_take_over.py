@@ -1,4 +1,4 @@
-"""A scenario takes the robot over, as an operator's remote control does: cmd_vel is not heeded meanwhile."""
+"""A scenario takes over the robot, like an operator's remote control: meanwhile cmd_vel is ignored."""
 
 import pytest
 import rclpy
@@ -14,7 +14,7 @@ AHEAD.linear.x = 0.3
 
 @pytest.fixture
 def node():
-    """A robot's node that nobody spins; its messages are handed to it by the test."""
+    """A robot's node that is not spun; the test calls its callbacks with messages."""
     rclpy.init()
     node = HumanoidNode(Humanoid())
     yield node
@@ -23,7 +23,7 @@ def node():
 
 
 def walk_on(node, duration):
-    """Let the robot walk while a program publishes a velocity straight ahead at 20 Hz; return how far it got."""
+    """Let the robot walk while a program publishes a forward velocity at 20 Hz; return the distance."""
     humanoid = node.humanoid
     start, end, due = humanoid.base_pose(), humanoid.time + duration, humanoid.time
     while humanoid.time < end:
@@ -36,7 +36,7 @@ def walk_on(node, duration):
     return now.position[0] - start.position[0], now.yaw - start.yaw
 
 
-def test_a_robot_that_is_held_does_not_heed_cmd_vel_until_it_is_given_back(node):
+def test_a_taken_over_robot_ignores_cmd_vel_until_it_is_released(node):
     assert walk_on(node, 3.0)[0] > 0.3
     apply_command({"do": "take_over", "velocity": [0.0, 0.0, 0.0]}, node.humanoid, node)
     walk_on(node, 1.5)
@@ -45,7 +45,7 @@ def test_a_robot_that_is_held_does_not_heed_cmd_vel_until_it_is_given_back(node)
     assert walk_on(node, 3.0)[0] > 0.3
 
 
-def test_a_robot_is_turned_off_its_way_without_a_fall(node):
+def test_an_operator_turns_the_robot_without_a_fall(node):
     walk_on(node, 2.0)
     apply_command({"do": "take_over", "velocity": [0.0, 0.0, 0.45]}, node.humanoid, node)
     assert walk_on(node, 2.5)[1] > 0.6

@@ -1,4 +1,4 @@
-"""The robot as another node meets it: topics, rates, frames, commands.
+"""The robot's topics, rates, frames and commands, used by another node.
 
 One robot serves the tests that leave it standing.
 """
@@ -77,7 +77,7 @@ def test_joint_states_name_every_joint_once(robot):
     assert {"l_knee", "r_knee", "waist_yaw", "l_elbow", "r_shoulder_pitch"} <= set(joints.name)
 
 
-def test_the_imu_feels_gravity(robot):
+def test_the_imu_measures_gravity(robot):
     imu = robot.one(Imu, "imu", qos_profile_sensor_data)
     assert imu.header.frame_id == "imu_link"
     assert imu.linear_acceleration.z == pytest.approx(9.81, abs=0.5)
@@ -89,7 +89,7 @@ def test_the_imu_feels_gravity(robot):
     ("message_type", "topic", "rate"),
     [(Odometry, "odom", 20.0), (JointState, "joint_states", 20.0), (Imu, "imu", 50.0)],
 )
-def test_messages_are_spaced_as_promised_in_simulated_time(robot, message_type, topic, rate):
+def test_topics_have_their_documented_rates_in_simulated_time(robot, message_type, topic, rate):
     messages = robot.collect(message_type, topic, 21, qos_profile_sensor_data)
     stamps = [message.header.stamp.sec + message.header.stamp.nanosec * 1e-9 for message in messages]
     assert stamps == sorted(stamps)

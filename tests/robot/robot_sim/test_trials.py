@@ -1,4 +1,4 @@
-"""The trials, a few runs of each: the long ones are for `./course bench --trial all`."""
+"""A few runs of each trial; `./course bench --trial all` makes the long ones."""
 
 import pytest
 from rich.console import Console
@@ -7,7 +7,7 @@ from bench.robot import run_trials, servo, soak
 from bench.robot.table import bench_robot, table_of
 
 
-def test_quick_stops_and_reaches_meet_their_references():
+def test_short_trials_of_stops_and_reaches_meet_their_references():
     rows = run_trials(["stops", "reaches"], quick=True)
     assert [row.title.split(",")[0] for row in rows] == ["stop mid-walk", "reach ≤ 0.55 m from the shoulder"]
     assert all(row.met for row in rows), [row.failures or row.measured for row in rows]
@@ -20,7 +20,7 @@ def test_hands_come_to_the_poses_they_can_reach_and_the_others_are_refused():
     assert "8 out of reach" in row.measured
 
 
-def test_speed_is_told_for_bare_physics_and_with_the_controller():
+def test_speed_is_measured_for_bare_physics_and_with_the_controller():
     titles = [row.title for row in run_trials(["speed"], quick=True)]
     assert titles == ["speed, bare mj_step", "speed, standing", "speed, walking"]
 

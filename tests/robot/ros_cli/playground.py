@@ -1,4 +1,4 @@
-"""A node with one of each: what the commands are tried on. It says "ready", then what it hears."""
+"""A node with an endpoint of each kind, for the commands. It prints "ready", then the messages that it receives."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ PERIOD = 0.05  # s
 
 
 class Playground(Node):
-    """`max_velocity` of a goal: below 0 it is rejected, above 1 it goes on until it is cancelled."""
+    """A goal with `max_velocity` below 0 is rejected; one above 1 runs until it is cancelled."""
 
     def __init__(self) -> None:
         super().__init__("playground", namespace="/demo")

@@ -24,7 +24,7 @@ ADD = "humanoid_interfaces/srv/AddTwoInts"
 TWIST = "geometry_msgs/msg/Twist"
 POSE = "geometry_msgs/msg/PoseStamped"
 
-Ros2 = Any  # a function: the words of a command → what came of it
+Ros2 = Any  # a function: the words of a command → its outcome
 
 
 @pytest.fixture(scope="module")
@@ -63,7 +63,7 @@ def ros2(environment: dict[str, str], playground: subprocess.Popen[str]) -> Ros2
 
 @pytest.fixture
 def started(environment: dict[str, str], playground: subprocess.Popen[str]) -> Iterator[Any]:
-    """A function that starts a command which goes on until Ctrl-C."""
+    """A function that starts a command that runs until Ctrl-C."""
     running: list[subprocess.Popen[str]] = []
 
     def start(*words: str) -> subprocess.Popen[str]:
@@ -152,7 +152,7 @@ def test_the_details_of_a_topic_name_its_nodes_and_qos(ros2: Ros2) -> None:
     assert shown.endswith("\n\nSubscription count: 0\n\n")
 
 
-def test_a_node_is_printed_with_all_it_has(ros2: Ros2) -> None:
+def test_a_node_is_printed_with_all_its_endpoints(ros2: Ros2) -> None:
     lines = ros2("node", "info", "/demo/playground").stdout.splitlines()
     assert lines[0] == "/demo/playground"
     assert [line for line in lines if re.fullmatch(r"  \S.*:", line)] == [
@@ -284,7 +284,7 @@ def test_a_parameter_is_set_refused_dumped_and_loaded(ros2: Ros2, tmp_path: Path
         ("param load /demo/playground missing.yaml", "missing.yaml cannot be loaded"),
     ],
 )
-def test_what_cannot_be_done_is_reported_with_exit_status_1(ros2: Ros2, words: str, expected: str) -> None:
+def test_a_failed_command_is_reported_with_exit_status_1(ros2: Ros2, words: str, expected: str) -> None:
     finished = ros2(*words.split())
     assert finished.returncode == 1
     assert expected in finished.stderr

@@ -1,3 +1,3 @@
-"""Ends before it is a node."""
+"""Raises before it creates a node."""
 
 raise RuntimeError("no such robot")

@@ -1,4 +1,4 @@
-"""Prints its arguments, complains, and ends with the status it is given; without one it stays."""
+"""Prints its arguments and a line on stderr, and ends with the given status; without a status it runs on."""
 
 import sys
 import time

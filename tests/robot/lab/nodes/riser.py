@@ -1,6 +1,6 @@
 """An action that takes 2 s in ten phases.
 
-Its one argument is how it treats goals: cancel, no-cancel, reject or doubt (it thinks for 1 s before it accepts).
+Its one argument is how it treats goals: cancel, no-cancel, reject or doubt (it waits for 1 s before it accepts).
 """
 
 import sys
