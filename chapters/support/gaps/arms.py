@@ -9,7 +9,7 @@ import numpy as np
 
 from humanoid_interfaces.action import PickAndPlace
 from lab.learning.gap import Gap, expect
-from lab.learning.gap_checks import asked, read_program
+from lab.learning.gap_check_helpers import read_program, run_student_code
 
 
 def merges_two_plans() -> str:
@@ -31,7 +31,7 @@ def merges_two_plans() -> str:
         (3.5, {}, "nothing is still to come, so there is no point: return the empty dict"),
     )
     for now, wanted, reason in situations:
-        got = asked(partial(merged, dict(left), dict(right), now), "merged.py")
+        got = run_student_code(partial(merged, dict(left), dict(right), now), "merged.py")
         expect(
             isinstance(got, dict),
             seen=f"{got!r} at {now} s",
@@ -82,7 +82,7 @@ def judges_by_both_tolerances() -> str:
         (0.7, -0.2, off_path, "the path tolerance holds after the last point, too: ask for it first"),
     )
     for error, left, wanted, reason in situations:
-        got = asked(partial(program["judge"], error, left), "tolerances.py")
+        got = run_student_code(partial(program["judge"], error, left), "tolerances.py")
         expect(
             got == wanted,
             seen=f"{got!r} for an error of {error} rad with {left} s left",
@@ -101,34 +101,34 @@ def puts_the_cup_down() -> str:
 
 def _cancel(*, stands: bool) -> None:
     """End a cancelled goal by the student's function, with a hand whose cup then `stands`, or not."""
-    did: list[str] = []
-    hand, goal_handle, result = _Hand(did, stands=stands), _GoalHandle(did), PickAndPlace.Result()
+    calls: list[str] = []
+    hand, goal_handle, result = _Hand(calls, stands=stands), _GoalHandle(calls), PickAndPlace.Result()
     end_canceled = read_program("put_down.py")["end_canceled"]
-    returned = asked(partial(end_canceled, hand, goal_handle, result), "put_down.py")
-    seen = f"{', then '.join(did) or 'nothing'}; lower() returned {stands}"
-    ends = [each for each in did if each in _GoalHandle.ENDS]
+    returned = run_student_code(partial(end_canceled, hand, goal_handle, result), "put_down.py")
+    seen = f"{', then '.join(calls) or 'nothing'}; lower() returned {stands}"
+    ends = [each for each in calls if each in _GoalHandle.TERMINAL_CALLS]
     expect(
-        "lower()" in did,
+        "lower()" in calls,
         seen=seen,
         expected="a cup that is put down",
         next="call hand.lower() first: it brings the cup back to where it stood",
     )
     expect(
-        "open()" not in did or did.index("lower()") < did.index("open()"),
+        "open()" not in calls or calls.index("lower()") < calls.index("open()"),
         seen=seen,
         expected="lower(), then open()",
         next="lower the hand before you open it: what it holds falls",
     )
     if stands:
         expect(
-            "open()" in did,
+            "open()" in calls,
             seen=seen,
             expected="a hand that lets go of the cup, because it stands",
             next="call hand.open() when hand.lower() has returned True",
         )
     else:
         expect(
-            "open()" not in did,
+            "open()" not in calls,
             seen=seen,
             expected="a hand that stays closed: the cup doesn't stand",
             next="open only `if hand.lower():`",
@@ -143,7 +143,7 @@ def _cancel(*, stands: bool) -> None:
         "cup: the client asked for a cancel",
     )
     expect(
-        did[-1] == "canceled()",
+        calls[-1] == "canceled()",
         seen=seen,
         expected="canceled() as the last of them",
         next="call goal_handle.canceled() when the hand is done: CANCELED says that the robot is safe",
@@ -159,38 +159,38 @@ def _cancel(*, stands: bool) -> None:
 class _Hand:
     """A hand that holds a cup and writes down what it is told."""
 
-    def __init__(self, did: list[str], *, stands: bool) -> None:
+    def __init__(self, calls: list[str], *, stands: bool) -> None:
         self.force = 7.0  # N
         self.cup = self.place = (0.35, -0.25, 0.855)  # m
-        self._did, self._stands = did, stands
+        self._calls, self._stands = calls, stands
 
     def lower(self) -> bool:
-        self._did.append("lower()")
+        self._calls.append("lower()")
         self.cup = self.place = (0.35, -0.25, 0.755 if self._stands else 0.80)
         return self._stands
 
     def open(self) -> None:
-        self._did.append("open()")
+        self._calls.append("open()")
         self.force = 0.0
 
 
 class _GoalHandle:
     """A goal handle that writes down how the goal is ended."""
 
-    ENDS = ("canceled()", "succeed()", "abort()")
+    TERMINAL_CALLS = ("canceled()", "succeed()", "abort()")
     is_cancel_requested = True
 
-    def __init__(self, did: list[str]) -> None:
-        self._did = did
+    def __init__(self, calls: list[str]) -> None:
+        self._calls = calls
 
     def canceled(self) -> None:
-        self._did.append("canceled()")
+        self._calls.append("canceled()")
 
     def succeed(self) -> None:
-        self._did.append("succeed()")
+        self._calls.append("succeed()")
 
     def abort(self) -> None:
-        self._did.append("abort()")
+        self._calls.append("abort()")
 
 
 GAPS = (

@@ -11,16 +11,16 @@ from lab.client.topics import mode, pose
 from lab.client.waiting import comes_true, wait_until
 from lab.errors import NoRobotError, NotInTimeError
 from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_checks import last_error
+from lab.learning.gap_check_helpers import last_error
 from lab.running.robot import restart_robot, robot_process, start_robot
 from lab.running.student_nodes import StudentNode, run_node
 
-ENDS = ("SUCCEEDED", "CANCELED", "ABORTED")
-NO_TERMINAL_CALL = "Goal state not set, assuming aborted"  # rclpy's warning
-TO_GET_DATA = 10.0  # s; until then the server rejects goals
-TO_SETTLE = 0.1  # s for the change of mode that came before the status to be handled
-TO_END = 5.0  # s; standing still takes one of them
-TO_TURN = 15.0  # s for the turns of these checks
+TERMINAL_STATUSES = ("SUCCEEDED", "CANCELED", "ABORTED")
+NO_TERMINAL_CALL_WARNING = "Goal state not set, assuming aborted"  # rclpy's warning
+ACCEPT_TIMEOUT = 10.0  # s; until then the server rejects goals
+MODE_DELAY = 0.1  # s for the change of mode that came before the status to be handled
+CANCEL_TIMEOUT = 5.0  # s; standing still takes one of them
+TURN_TIMEOUT = 15.0  # s for the turns of these checks
 
 
 def canceled_when_the_robot_stands() -> str:
@@ -35,11 +35,11 @@ def _cancel_in_mid_step(server: StudentNode, after: int) -> int:
     goal = _send(server, 170)
     _wait_for_steps(server, goal, after)
     goal.cancel()
-    comes_true(lambda: goal.status in ENDS or not server.is_running, TO_END)
-    stands = comes_true(lambda: mode() == "STANDING", TO_SETTLE)
-    if server.is_running and goal.status not in ENDS:
+    comes_true(lambda: goal.status in TERMINAL_STATUSES or not server.is_running, CANCEL_TIMEOUT)
+    stands = comes_true(lambda: mode() == "STANDING", MODE_DELAY)
+    if server.is_running and goal.status not in TERMINAL_STATUSES:
         raise not_yet(
-            f"status {goal.status} {TO_END:g} s after the cancel",
+            f"status {goal.status} {CANCEL_TIMEOUT:g} s after the cancel",
             "CANCELED as soon as the robot stands",
             "call goal_handle.canceled() when stand_still() has returned",
         )
@@ -63,7 +63,7 @@ def _cancel_in_mid_step(server: StudentNode, after: int) -> int:
 def a_bug_ends_aborted() -> str:
     """Send a goal of 0°, in which filling the result raises, then one of 20°."""
     server = _start("careful_turn.py")
-    with_bug = _outcome(server, _send(server, 0), TO_TURN)
+    with_bug = _outcome(server, _send(server, 0), TURN_TIMEOUT)
     if with_bug.status == "SUCCEEDED" and with_bug.result.final_pose.header.frame_id:
         raise not_yet(
             "0°: SUCCEEDED with a filled result, so nothing raised",
@@ -76,8 +76,8 @@ def a_bug_ends_aborted() -> str:
         expected="0°: ABORTED",
         next="fill the result first; the terminal call decides the status, so it comes after that",
     )
-    sound = _outcome(server, _send(server, 20), TO_TURN)
-    stands = comes_true(lambda: mode() == "STANDING", TO_SETTLE)
+    sound = _outcome(server, _send(server, 20), TURN_TIMEOUT)
+    stands = comes_true(lambda: mode() == "STANDING", MODE_DELAY)
     expect(
         sound.status == "SUCCEEDED",
         seen=f"0°: ABORTED, and 20°: {sound.status}{_complaint(server)}",
@@ -98,7 +98,7 @@ def the_newest_goal_wins() -> str:
     """Send a second goal in the middle of a turn."""
     server = _start("preemptable_turn.py")
     old = _send(server, 120)
-    wait_until(lambda: len(old.feedback) > 4 or old.is_over or not server.is_running, TO_TURN, "a turn")
+    wait_until(lambda: len(old.feedback) > 4 or old.is_over or not server.is_running, TURN_TIMEOUT, "a turn")
     if old.is_over or not server.is_running:
         raise not_yet(
             f"the only goal ended {_outcome(server, old, 1.0).status}{_complaint(server)}",
@@ -134,12 +134,12 @@ def the_newest_goal_wins() -> str:
         next="give self.result() a third argument that says why the goal ended",
     )
     expect(
-        NO_TERMINAL_CALL not in server.log(),
-        seen=f"ABORTED, but rclpy had to do it: {NO_TERMINAL_CALL}",
+        NO_TERMINAL_CALL_WARNING not in server.log(),
+        seen=f"ABORTED, but rclpy had to do it: {NO_TERMINAL_CALL_WARNING}",
         expected="your terminal call",
         next="call goal_handle.abort() before you return the result",
     )
-    second = _outcome(server, new, TO_TURN)
+    second = _outcome(server, new, TURN_TIMEOUT)
     expect(
         second.status == "SUCCEEDED",
         seen=f"the newer goal ended {second.status}{_complaint(server)}",
@@ -174,7 +174,7 @@ def _send(server: StudentNode, degrees: float) -> Goal:
         sent.append(send_goal("turn_to", WalkTo, goal))
         return sent[-1].accepted
 
-    if not comes_true(accepted, TO_GET_DATA):
+    if not comes_true(accepted, ACCEPT_TIMEOUT):
         raise not_yet(f"no goal was accepted{_complaint(server)}", "an accepted goal", "look at server.log()")
     return sent[-1]
 
@@ -186,7 +186,7 @@ def _wait_for_steps(server: StudentNode, goal: Goal, count: int) -> None:
         return len(goal.feedback) >= count and goal.feedback[-1].steps_taken > 0 and mode() == "WALKING"
 
     try:
-        wait_until(lambda: under_way() or not server.is_running, TO_TURN)
+        wait_until(lambda: under_way() or not server.is_running, TURN_TIMEOUT)
     except NotInTimeError:
         raise not_yet(
             f"the robot does not turn{_complaint(server)}", "a turn", "look at server.log()"
@@ -202,7 +202,7 @@ def _outcome(server: StudentNode, goal: Goal, seconds: float) -> Outcome:
     if goal.is_over:
         return goal.result(show_feedback=False)
     if server.is_running:
-        over = goal.status in ENDS
+        over = goal.status in TERMINAL_STATUSES
         advice = (
             "end the branch with `return result`"
             if over
@@ -227,8 +227,10 @@ def _require_filled(outcome: Outcome, advice: str) -> None:
 def _complaint(server: StudentNode) -> str:
     """Return the last error or warning in the node's log, to put behind what was seen."""
     log = server.log()
-    said = last_error(log, server.file.name) or (NO_TERMINAL_CALL if NO_TERMINAL_CALL in log else "")
-    return f"; its log says: {said}" if said else ""
+    problem = last_error(log, server.file.name) or (
+        NO_TERMINAL_CALL_WARNING if NO_TERMINAL_CALL_WARNING in log else ""
+    )
+    return f"; its log says: {problem}" if problem else ""
 
 
 GAPS = (

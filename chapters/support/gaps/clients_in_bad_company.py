@@ -6,16 +6,16 @@ import re
 
 from chapters.support import harness
 from lab.learning.gap import Gap, expect
-from lab.learning.gap_checks import last_words
+from lab.learning.gap_check_helpers import last_error_or_line
 from lab.running.programs import Program, run_program
 from lab.running.student_nodes import run_node
 
-SERVER = f"{harness.__path__[0]}/trigger_server.py"
+SERVER_PROGRAM = f"{harness.__path__[0]}/trigger_server.py"
 
 
 def reads_the_answer() -> str:
     """Run forward_fixed.py with a server that refuses, then with one that does not."""
-    run_node(SERVER, "forward", "refuses")
+    run_node(SERVER_PROGRAM, "forward", "refuses")
     refused = run_program("forward_fixed.py")
     _require_no_traceback(refused)
     expect(
@@ -36,7 +36,7 @@ def reads_the_answer() -> str:
         expected="the server's message, 'forward refuses', on stderr",
         next="print response.message with file=sys.stderr",
     )
-    run_node(SERVER, "forward", "grants")
+    run_node(SERVER_PROGRAM, "forward", "grants")
     granted = run_program("forward_fixed.py")
     _require_no_traceback(granted)
     expect(
@@ -54,28 +54,28 @@ def sends_a_request_of_its_own() -> str:
     program = run_program("sum_fixed.py", "2", "3")
     _require_no_traceback(program)
     sums = re.findall(r"(-?\d+) \+ (-?\d+) = (-?\d+)", program.stdout)
-    told = "; ".join(f"{a} + {b} = {total}" for a, b, total in sums) or "no sums"
+    printed = "; ".join(f"{a} + {b} = {total}" for a, b, total in sums) or "no sums"
     expect(
         all(int(a) + int(b) == int(total) for a, b, total in sums),
-        seen=told,
+        seen=printed,
         expected="2 + 3 = 5; 20 + 30 = 50",
         next="make an AddTwoInts.Request for each call: the second call has overwritten the first request",
     )
     expect(
         [total for *_, total in sums] == ["5", "50"],
-        seen=told,
+        seen=printed,
         expected="2 + 3 = 5; 20 + 30 = 50",
         next="append (request, future) to `sent` twice: with a and b, and with 10 * a and 10 * b",
     )
-    return told
+    return printed
 
 
 def _require_no_traceback(program: Program) -> None:
     expect(
         "Traceback" not in program.stderr,
-        seen=last_words(program.stderr, program.file.name),
+        seen=last_error_or_line(program.stderr, program.file.name),
         expected="no exception",
-        next="mend what this error names",
+        next="fix the error that is named here",
     )
     expect(
         not program.stopped,

@@ -9,8 +9,8 @@ from chapters.support import harness
 from lab.learning.gap import Gap, expect, not_yet
 from lab.running.programs import run_program
 
-TRIAL = f"{harness.__path__[0]}/bounded_calls.py"
-MOST = 30.0  # s for all calls of a trial; sound lines need 6 s
+TRIALS_PROGRAM = f"{harness.__path__[0]}/bounded_calls.py"
+TRIALS_TIMEOUT = 30.0  # s for all calls of a trial; correct lines need 6 s
 SLACK = (
     0.9  # s that a call may take longer: rclpy looks for a server four times a second, and machines are busy
 )
@@ -21,7 +21,7 @@ def try_calls(function: str, *cases: str) -> list[dict[str, Any]]:
 
     Raises GapError when a call did not return.
     """
-    program = run_program(TRIAL, function, *cases, timeout=MOST)
+    program = run_program(TRIALS_PROGRAM, function, *cases, timeout=TRIALS_TIMEOUT)
     calls = [json.loads(line) for line in program.stdout.splitlines() if line.startswith("{")]
     if len(calls) == len(cases):
         return calls
@@ -39,7 +39,7 @@ def try_calls(function: str, *cases: str) -> list[dict[str, Any]]:
             "do not wait again without a limit",
         )
     reason = (program.stderr.strip().splitlines() or ["it printed nothing"])[-1]
-    raise not_yet(f"the program ended: {reason}", "a call that returns", "mend what this error names")
+    raise not_yet(f"the program ended: {reason}", "a call that returns", "fix the error that is named here")
 
 
 def looks_and_removes() -> str:
@@ -77,49 +77,49 @@ def keeps_one_deadline() -> str:
         _require_no_error(call)
     expect(
         answering["returned"] == "response" and answering["requests"] == 1,
-        seen=f"the server answers: {_told(answering)}",
+        seen=f"the server answers: {_in_words(answering)}",
         expected="the response, after one request",
         next="return the response as soon as it is not None",
     )
     expect(
         first_lost["seconds"] < 4.0,
-        seen=f"the first request is lost, 5 s are left: {_told(first_lost)}",
+        seen=f"the first request is lost, 5 s are left: {_in_words(first_lost)}",
         expected="a second request after PER_TRY, 2 s",
         next="give a try min(PER_TRY, left_until(deadline))",
     )
     expect(
         first_lost["returned"] == "response",
-        seen=f"the first request is lost, 5 s are left: {_told(first_lost)}",
+        seen=f"the first request is lost, 5 s are left: {_in_words(first_lost)}",
         expected="the response to a second request",
         next="try again while response is None, `tries` times in all",
     )
     expect(
         silent["returned"] is None,
-        seen=f"no answer at all: {_told(silent)}",
+        seen=f"no answer at all: {_in_words(silent)}",
         expected="None",
         next="return None after the last try",
     )
     expect(
         silent["seconds"] < 2.5 + SLACK,
-        seen=f"no answer, 2.5 s for everything: {_told(silent)}",
+        seen=f"no answer, 2.5 s for everything: {_in_words(silent)}",
         expected="None after 2.5 s: 2 s for the first try, 0.5 s for the second",
         next="give each try what is left at that moment: min(PER_TRY, left_until(deadline))",
     )
     expect(
         silent["requests"] <= 2,
-        seen=f"no answer, 2 tries: {_told(silent)}",
+        seen=f"no answer, 2 tries: {_in_words(silent)}",
         expected="at most 2 requests",
         next="count the tries: for _ in range(tries)",
     )
     expect(
         missing["returned"] is None and missing["seconds"] < 0.5 + SLACK,
-        seen=f"nobody offers the service, 0.5 s for everything: {_told(missing)}",
+        seen=f"nobody offers the service, 0.5 s for everything: {_in_words(missing)}",
         expected="None after about 0.5 s",
         next="wait_for_service(timeout_sec=left_until(deadline)); when it returns False, return None",
     )
     expect(
         over["returned"] is None and over["seconds"] < SLACK,
-        seen=f"the deadline has passed: {_told(over)}",
+        seen=f"the deadline has passed: {_in_words(over)}",
         expected="None at once",
         next="give each wait left_until(deadline)",
     )
@@ -137,11 +137,11 @@ def _require_no_error(call: dict[str, Any]) -> None:
         not call["raised"],
         seen=f"an exception: {call['raised']}",
         expected="a response, or None",
-        next="mend what this error names",
+        next="fix the error that is named here",
     )
 
 
-def _told(call: dict[str, Any]) -> str:
+def _in_words(call: dict[str, Any]) -> str:
     requests = f"{call['requests']} request{'' if call['requests'] == 1 else 's'}"
     return f"it returned {call['returned']} after {call['seconds']:.1f} s and {requests}"
 

@@ -18,18 +18,18 @@ from lab.client.services import call
 from lab.client.waiting import comes_true
 from lab.errors import NoAnswerError, NoServerError
 from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_checks import last_words
+from lab.learning.gap_check_helpers import last_error_or_line
 from lab.running.programs import run_program
 from lab.running.student_nodes import StudentNode, run_node
 
-SERVER = f"{harness.__path__[0]}/trigger_server.py"
-WAITS = f"{harness.__path__[0]}/timed_waits.py"
-LOOK = 3.0  # s that look_around takes
-LONGEST_GAP = 1.0  # s between two heartbeats, also on a busy machine; a blocked one waits for LOOK
-TO_BEAT = 5.0  # s until the first heartbeats have come
-TO_ASK = 3.0  # s for a report; its question has a limit of 1 s
-TO_MEET = 15.0  # s until a new server and its client have found each other
-TO_END = 1.0  # s; a node that an exception ends is gone by then
+SERVER_PROGRAM = f"{harness.__path__[0]}/trigger_server.py"
+WAITS_PROGRAM = f"{harness.__path__[0]}/timed_waits.py"
+LOOK_DURATION = 3.0  # s that look_around takes
+LONGEST_GAP = 1.0  # s between two heartbeats, also on a busy machine; a blocked one waits for LOOK_DURATION
+FIRST_BEATS_TIMEOUT = 5.0  # s until the first heartbeats have come
+REPORT_TIMEOUT = 3.0  # s for a report; its question has a limit of 1 s
+DISCOVERY_TIMEOUT = 15.0  # s until a new server and its client have found each other
+EXIT_TIMEOUT = 1.0  # s; a node that an exception ends is gone by then
 POSITION = "x 1.00 m, y 0.00 m"
 
 
@@ -58,9 +58,9 @@ def waits_without_a_thread() -> str:
             next="await a Future that a timer completes: what blocks keeps the only thread",
         )
         expect(
-            took > LOOK - 0.3,
+            took > LOOK_DURATION - 0.3,
             seen=f"the answer after {took:.1f} s",
-            expected=f"after {LOOK:g} s",
+            expected=f"after {LOOK_DURATION:g} s",
             next="await the future before you return; the timer's period is `seconds`",
         )
     _require_a_timer_for_each_wait("awaiting", "Awaiting", "wait")
@@ -73,7 +73,7 @@ def reports_or_says_why_not() -> str:
     _expect_refusal(node, "nobody offers where_am_i")
     answers = "where_am_i answers"
     with _where_am_i():
-        if not comes_true(lambda: _report(node, answers).success, TO_MEET):
+        if not comes_true(lambda: _report(node, answers).success, DISCOVERY_TIMEOUT):
             raise not_yet(
                 f"success=False, although {answers}",
                 f"the position, {POSITION!r}",
@@ -87,14 +87,14 @@ def reports_or_says_why_not() -> str:
             next="let ask() return the response of where_am_i, which `await future` gives you",
         )
     _expect_refusal(node, "where_am_i has gone")
-    silent = run_node(SERVER, "where_am_i", "ignores")
+    silent = run_node(SERVER_PROGRAM, "where_am_i", "ignores")
 
     def has_been_ignored() -> bool:
         _expect_refusal(node, "where_am_i keeps silent")
         return "ignored" in silent.log()
 
     expect(
-        comes_true(has_been_ignored, TO_MEET),
+        comes_true(has_been_ignored, DISCOVERY_TIMEOUT),
         seen="no request at where_am_i",
         expected="a request for each report",
         next="send it with self.client.call_async(Trigger.Request())",
@@ -105,7 +105,7 @@ def reports_or_says_why_not() -> str:
 
 def _require_a_timer_for_each_wait(module: str, node: str, coroutine: str) -> None:
     """Require that a timer of the node ends the wait of a coroutine, and does not call again."""
-    calls = json.loads(run_program(WAITS, module, node, coroutine).stdout.splitlines()[-1])
+    calls = json.loads(run_program(WAITS_PROGRAM, module, node, coroutine).stdout.splitlines()[-1])
     expect(
         calls["until_the_end"],
         seen="the wait ended without a call of a timer",
@@ -124,37 +124,40 @@ def _require_a_timer_for_each_wait(module: str, node: str, coroutine: str) -> No
 def _look_around(node: StudentNode) -> tuple[float, float]:
     """Return the longest gap between two heartbeats while the node looks around, and how long that took, in s."""
     beats: list[float] = []
-    ear = connection().node.create_subscription(
+    subscription = connection().node.create_subscription(
         Empty, "heartbeat", lambda _: beats.append(time.monotonic()), 10
     )
     try:
-        if not comes_true(lambda: len(beats) > 3 or not node.is_running, TO_BEAT) or not node.is_running:
+        if (
+            not comes_true(lambda: len(beats) > 3 or not node.is_running, FIRST_BEATS_TIMEOUT)
+            or not node.is_running
+        ):
             raise not_yet(f"no heartbeat{_complaint(node)}", "ten a second", "call super().__init__(…)")
         asked = time.monotonic()
         try:
-            call("look_around", Trigger, timeout=2 * LOOK)
+            call("look_around", Trigger, timeout=2 * LOOK_DURATION)
         except (NoAnswerError, NoServerError):
             raise _no_answer(node) from None
         took = time.monotonic() - asked
         seen = len(beats)
-        comes_true(lambda: len(beats) > seen + 1, LOOK)  # the beat after a gap ends it
+        comes_true(lambda: len(beats) > seen + 1, LOOK_DURATION)  # the beat after a gap ends it
     finally:
-        connection().node.destroy_subscription(ear)
+        connection().node.destroy_subscription(subscription)
     return max(later - earlier for earlier, later in pairwise(beats)), took
 
 
 def _no_answer(node: StudentNode) -> Exception:
-    ended = comes_true(lambda: not node.is_running, TO_END)
+    ended = comes_true(lambda: not node.is_running, EXIT_TIMEOUT)
     complaint = _complaint(node) if ended else ""
     advice = (
         "asyncio's event loop doesn't run here: await an rclpy Future"
         if "event loop" in complaint
-        else "mend what this error names"
+        else "fix the error that is named here"
         if ended
         else "let a timer complete the future, and give the timer callback_group=self.waiting: "
         "the default group stays closed while look_around awaits"
     )
-    return not_yet(f"no answer from look_around{complaint}", f"an answer after {LOOK:g} s", advice)
+    return not_yet(f"no answer from look_around{complaint}", f"an answer after {LOOK_DURATION:g} s", advice)
 
 
 def _expect_refusal(node: StudentNode, why: str) -> None:
@@ -169,13 +172,13 @@ def _expect_refusal(node: StudentNode, why: str) -> None:
 
 def _report(node: StudentNode, why: str) -> Any:
     try:
-        return call("report", Trigger, timeout=TO_ASK)
+        return call("report", Trigger, timeout=REPORT_TIMEOUT)
     except (NoAnswerError, NoServerError):
         pass
-    if comes_true(lambda: not node.is_running, TO_END):
-        raise not_yet(f"no report{_complaint(node)}", "a report", "mend what this error names")
+    if comes_true(lambda: not node.is_running, EXIT_TIMEOUT):
+        raise not_yet(f"no report{_complaint(node)}", "a report", "fix the error that is named here")
     raise not_yet(
-        f"{why}, and no report within {TO_ASK:g} s; the node still runs",
+        f"{why}, and no report within {REPORT_TIMEOUT:g} s; the node still runs",
         "a report within 1 s or so",
         "let a timer call future.cancel after `seconds`, and give the timer callback_group=self.asking: "
         "the default group stays closed while on_request awaits",
@@ -199,7 +202,9 @@ def _where_am_i() -> Iterator[None]:
 
 def _complaint(node: StudentNode) -> str:
     """Return the last error in the log of a node that has ended, to put behind what was seen."""
-    return "" if node.is_running else f"; the node has ended: {last_words(node.log(), node.file.name)}"
+    return (
+        "" if node.is_running else f"; the node has ended: {last_error_or_line(node.log(), node.file.name)}"
+    )
 
 
 GAPS = (

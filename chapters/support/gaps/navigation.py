@@ -9,15 +9,15 @@ from itertools import pairwise
 from typing import Any
 
 from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_checks import asked, read_program
+from lab.learning.gap_check_helpers import read_program, run_student_code
 
 RATE = 20  # Hz, of odom
 SPEED = 0.35  # m/s, of the robot
-SWAY, PERIOD = 0.03, 0.88  # m to each side, s for two steps
+SWAY, SWAY_PERIOD = 0.03, 0.88  # m to each side, s for two steps
 MAX_PATH_ERROR_RATIO = 0.15  # of the distance really walked
-MOST_SWAY = 0.25  # m that an odometer may count for a robot that marches on the spot
-MARCH = 30.0  # s
-SHORT = 0.01  # m, shorter than most pieces of the march
+MAX_COUNTED_SWAY = 0.25  # m that an odometer may count for a robot that marches on the spot
+MARCH_DURATION = 30.0  # s
+SHORT_PIECE = 0.01  # m, shorter than most pieces of the march
 
 
 def decides_the_phase() -> str:
@@ -43,7 +43,7 @@ def decides_the_phase() -> str:
         (there, 0.7, 0.05, walk, "a push took the robot away: the distance is over REACH"),
     )
     for phase, distance, bearing, wanted, reason in situations:
-        got = asked(partial(program["next_phase"], phase, distance, bearing), "route.py")
+        got = run_student_code(partial(program["next_phase"], phase, distance, bearing), "route.py")
         expect(
             got == wanted,
             seen=f"{got!r} for phase {phase!r}, {distance} m and a bearing of {bearing} rad",
@@ -67,8 +67,8 @@ def forgets_the_sway() -> str:
     naive = _walked_naively(march)
     expect(
         marched < naive / 2,
-        seen=f"{marched:.2f} m for a robot that marches {MARCH:g} s on the spot; all pieces are {naive:.2f} m",
-        expected=f"less than {MOST_SWAY} m",
+        seen=f"{marched:.2f} m for a robot that marches {MARCH_DURATION:g} s on the spot; all pieces are {naive:.2f} m",
+        expected=f"less than {MAX_COUNTED_SWAY} m",
         next="do nothing as long as the piece from last to here is shorter than `shortest`; move last only when a "
         "piece counts",
     )
@@ -86,15 +86,15 @@ def forgets_the_sway() -> str:
             f"{metres:.2f} m for {name}", f"{truth:.2f} m, within {MAX_PATH_ERROR_RATIO:.0%}", advice
         )
     expect(
-        marched <= MOST_SWAY,
-        seen=f"{marched:.2f} m for a robot that marches {MARCH:g} s on the spot",
-        expected=f"at most {MOST_SWAY} m",
+        marched <= MAX_COUNTED_SWAY,
+        seen=f"{marched:.2f} m for a robot that marches {MARCH_DURATION:g} s on the spot",
+        expected=f"at most {MAX_COUNTED_SWAY} m",
         next="compare with `shortest`: a shorter piece may be sway",
     )
-    everything = float(asked(partial(walked, march, SHORT), "odometer.py"))
+    everything = float(run_student_code(partial(walked, march, SHORT_PIECE), "odometer.py"))
     expect(
         everything > naive / 2,
-        seen=f"{everything:.2f} m for the march with shortest={SHORT}",
+        seen=f"{everything:.2f} m for the march with shortest={SHORT_PIECE}",
         expected=f"almost {naive:.2f} m, the sum of all pieces",
         next="compare with the argument `shortest`, not with a number of your own",
     )
@@ -122,7 +122,7 @@ def knows_a_charge() -> str:
         ),
     )
     for percentage, wanted, reason in percentages:
-        got = asked(partial(program["decide"], percentage), "battery_watch.py")
+        got = run_student_code(partial(program["decide"], percentage), "battery_watch.py")
         expect(
             got == wanted,
             seen=f"{got!r} for {percentage:g}",
@@ -133,7 +133,7 @@ def knows_a_charge() -> str:
 
 
 def _walked(walked: Callable[..., Any], points: Iterable[tuple[float, float]]) -> float:
-    return float(asked(partial(walked, list(points)), "odometer.py"))
+    return float(run_student_code(partial(walked, list(points)), "odometer.py"))
 
 
 def _walked_naively(points: Iterable[tuple[float, float]]) -> float:
@@ -156,7 +156,7 @@ def _along(corners: list[tuple[float, float]]) -> list[tuple[float, float]]:
 
 def _march() -> Iterator[tuple[float, float]]:
     """A robot that steps on the spot."""
-    return ((0.01 * math.cos(2 * math.pi * t / PERIOD), _sway(t)) for t in _times(MARCH))
+    return ((0.01 * math.cos(2 * math.pi * t / SWAY_PERIOD), _sway(t)) for t in _times(MARCH_DURATION))
 
 
 def _times(seconds: float) -> list[float]:
@@ -164,7 +164,7 @@ def _times(seconds: float) -> list[float]:
 
 
 def _sway(t: float) -> float:
-    return SWAY * math.sin(2 * math.pi * t / PERIOD)
+    return SWAY * math.sin(2 * math.pi * t / SWAY_PERIOD)
 
 
 GAPS = (

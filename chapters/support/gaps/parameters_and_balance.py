@@ -20,17 +20,22 @@ from lab.client.connection import connection
 from lab.client.waiting import comes_true
 from lab.errors import NodeEndedError
 from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_checks import ask, asked, last_words, read_program
+from lab.learning.gap_check_helpers import (
+    call_student_service,
+    last_error_or_line,
+    read_program,
+    run_student_code,
+)
 from lab.running.student_nodes import StudentNode, run_node
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-ASIDE = "/trial"  # a namespace in which no robot hears cmd_vel
-NODE = "/robot/circle"
-WANTED = {"speed": 0.2, "turn": 0.25}  # of start.yaml
-TO_ARRIVE = 3.0  # s for a message
+TRIAL_NAMESPACE = "/trial"  # a namespace in which no robot hears cmd_vel
+NODE_NAME = "/robot/circle"
+FILE_VALUES = {"speed": 0.2, "turn": 0.25}  # of start.yaml
+MESSAGE_TIMEOUT = 3.0  # s for a message
 HINTS = {
     "ZeroDivisionError": "a robot that walks straight turns by 0.0: multiply, do not divide by the turn",
-    "": "mend what this error names: an exception in a callback ends the node",
+    "": "fix the error that is named here: an exception in a callback ends the node",
 }
 
 
@@ -74,7 +79,7 @@ def decides_about_what_is_asked_for() -> str:
     for now, new, wanted, advice in cases:
         given = dict(now)
         parameters = [Parameter(name, value=value) for name, value in new.items()]
-        result = asked(partial(decide, given, parameters), "decide.py", hints=HINTS)
+        result = run_student_code(partial(decide, given, parameters), "decide.py", hints=HINTS)
         about = f"{_words(new)} on top of {_words(now)}"
         expect(
             isinstance(result, SetParametersResult),
@@ -107,9 +112,9 @@ def decides_about_what_is_asked_for() -> str:
 def sees_every_set() -> str:
     """Start guarded.py with good values, set some, and start it again with bad ones."""
     with _radii() as radii:
-        node = _started(speed=0.1, turn=0.2)
+        node = _start_or_explain(speed=0.1, turn=0.2)
         expect(
-            comes_true(lambda: radii, TO_ARRIVE),
+            comes_true(lambda: radii, MESSAGE_TIMEOUT),
             seen="no message on radius after the start",
             expected="0.5, for a speed of 0.1 and a turn of 0.2",
             next="call self.apply([]) once, as the last of the four",
@@ -129,7 +134,7 @@ def sees_every_set() -> str:
             next="register self.decide with add_on_set_parameters_callback, self.apply with add_post_set_…",
         )
         expect(
-            comes_true(lambda: math.isclose(radii[-1], 0.1 / 0.25), TO_ARRIVE),
+            comes_true(lambda: math.isclose(radii[-1], 0.1 / 0.25), MESSAGE_TIMEOUT),
             seen="no new message on radius after an accepted set",
             expected="0.4, for a speed of 0.1 and a turn of 0.25",
             next="register self.apply with self.add_post_set_parameters_callback()",
@@ -157,14 +162,14 @@ def starts_from_the_file() -> str:
         raise not_yet(
             f"the node ended at once: {reason}", "a node that starts", _about_the_file(text)
         ) from None
-    values = ask(
-        node, "circle/get_parameters", GetParameters, GetParameters.Request(names=list(WANTED))
+    values = call_student_service(
+        node, "circle/get_parameters", GetParameters, GetParameters.Request(names=list(FILE_VALUES))
     ).values
-    found = {name: value.double_value for name, value in zip(WANTED, values, strict=True)}
+    found = {name: value.double_value for name, value in zip(FILE_VALUES, values, strict=True)}
     expect(
-        found == WANTED,
+        found == FILE_VALUES,
         seen=f"the node has {_words(found)}",
-        expected=_words(WANTED),
+        expected=_words(FILE_VALUES),
         next=_about_the_file(text),
     )
     return f"started with {_words(found)}: a circle of {found['speed'] / found['turn']:.1f} m"
@@ -179,28 +184,28 @@ def _about_the_file(text: str) -> str:
         return f"this is no YAML: write {levels}; a space follows each colon"
     if not isinstance(content, dict):
         return f"write {levels}; a space follows each colon"
-    if NODE not in content and "/**" not in content:
-        return f"the first line is the node's full name, {NODE}:"
-    section = content[NODE] if NODE in content else content["/**"]
+    if NODE_NAME not in content and "/**" not in content:
+        return f"the first line is the node's full name, {NODE_NAME}:"
+    section = content[NODE_NAME] if NODE_NAME in content else content["/**"]
     if not isinstance(section, dict) or "ros__parameters" not in section:
         return f"below the node stands ros__parameters: with two underscores; write {levels}"
     if not isinstance(section["ros__parameters"], dict):
         return f"a space follows each colon; write {levels}"
     parameters = section["ros__parameters"]
-    for name, value in WANTED.items():
+    for name, value in FILE_VALUES.items():
         if name not in parameters:
             return f"there is no {name} below ros__parameters; a name that nobody declares is ignored"
         if not isinstance(parameters[name], float):
             return f"{name} has to be a double, such as {value}"
-    return f"write speed: {WANTED['speed']} and turn: {WANTED['turn']}"
+    return f"write speed: {FILE_VALUES['speed']} and turn: {FILE_VALUES['turn']}"
 
 
-def _started(**values: float) -> StudentNode:
+def _start_or_explain(**values: float) -> StudentNode:
     """Start guarded.py with good values."""
     try:
         return _start(**values)
     except NodeEndedError as problem:
-        reason = last_words(str(problem), "guarded.py")
+        reason = last_error_or_line(str(problem), "guarded.py")
         if "NotDeclared" in reason:
             advice = (
                 "self.apply needs both parameters: call self.declare(), then register self.apply with "
@@ -211,20 +216,22 @@ def _started(**values: float) -> StudentNode:
                 "self.decide says yes or no: it belongs to add_on_set_…; self.apply belongs to add_post_set_…"
             )
         else:
-            advice = "mend what this error names"
+            advice = "fix the error that is named here"
         raise not_yet(f"the node ended at once: {reason}", "a node that runs", advice) from None
 
 
 def _start(**values: float) -> StudentNode:
     given = [word for name, value in values.items() for word in ("-p", f"{name}:={value}")]
-    return run_node("guarded.py", "--ros-args", "-r", f"__ns:={ASIDE}", *given)
+    return run_node("guarded.py", "--ros-args", "-r", f"__ns:={TRIAL_NAMESPACE}", *given)
 
 
 def _set(node: StudentNode, **values: float) -> SetParametersResult:
     request = SetParameters.Request(
         parameters=[Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
     )
-    return ask(node, f"{ASIDE}/circle/set_parameters", SetParameters, request).results[0]
+    return call_student_service(
+        node, f"{TRIAL_NAMESPACE}/circle/set_parameters", SetParameters, request
+    ).results[0]
 
 
 @contextmanager
@@ -235,11 +242,11 @@ def _radii() -> Iterator[list[float]]:
     def keep(message: Float64) -> None:
         radii.append(message.data)
 
-    ear = connection().node.create_subscription(Float64, f"{ASIDE}/radius", keep, LATCHED)
+    subscription = connection().node.create_subscription(Float64, f"{TRIAL_NAMESPACE}/radius", keep, LATCHED)
     try:
         yield radii
     finally:
-        connection().node.destroy_subscription(ear)
+        connection().node.destroy_subscription(subscription)
 
 
 def _words(values: Mapping[str, Any]) -> str:
@@ -249,7 +256,7 @@ def _words(values: Mapping[str, Any]) -> str:
 def waits_until_it_lasts() -> str:
     """Show two conditions at different times, one of them from time 0 on."""
     make = read_program("steady.py")["Steady"]
-    one, other = (asked(partial(make, seconds), "steady.py") for seconds in (0.5, 0.2))
+    one, other = (run_student_code(partial(make, seconds), "steady.py") for seconds in (0.5, 0.2))
     moments: tuple[tuple[Any, float, bool, bool, str], ...] = (
         (one, 0.0, True, False, "it has only just begun"),
         (one, 0.3, True, False, "it is so for 0.3 s, not for 0.5 s"),
@@ -273,7 +280,7 @@ def waits_until_it_lasts() -> str:
         (one, 2.05, True, True, "it is so for 0.55 s without a break"),
     )
     for steady, now, is_so, wanted, reason in moments:
-        got = asked(partial(steady.lasts, is_so, now), "steady.py")
+        got = run_student_code(partial(steady.lasts, is_so, now), "steady.py")
         expect(
             got == wanted,
             seen=f"{got!r} at {now} s from Steady({0.5 if steady is one else 0.2}), with is_so {is_so}",

@@ -17,14 +17,14 @@ from lab.client.topics import mode, pose
 from lab.client.waiting import comes_true
 from lab.errors import NodeEndedError
 from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_checks import last_words
+from lab.learning.gap_check_helpers import last_error_or_line
 from lab.running.robot import restart_robot, robot_process
 from lab.running.student_nodes import StudentNode, run_node
 
-FIVE = {"odom", "robot_state", "battery_state", "joint_states", "imu"}
-PAUSE = "/sim/set_pause"
-METRE = (0.9, 1.5)  # m; the robot finishes its step after the last command
-NO_ERROR_HINT = "mend what this error names"
+TOPICS = {"odom", "robot_state", "battery_state", "joint_states", "imu"}
+PAUSE_SERVICE = "/sim/set_pause"
+ACCEPTED_DISTANCES = (0.9, 1.5)  # m; the robot finishes its step after the last command
+NO_ERROR_HINT = "fix the error that is named here"
 
 
 def receives_five_topics() -> str:
@@ -38,10 +38,10 @@ def receives_five_topics() -> str:
     )
     comes_true(lambda: "received:" in node.log() or not node.is_running, 10.0)
     _require_running(node, {})
-    received = _received(node.log())
-    silent = ", ".join(sorted(FIVE - received))
+    received = _received_topics(node.log())
+    silent = ", ".join(sorted(TOPICS - received))
     expect(
-        received == FIVE,
+        received == TOPICS,
         seen=f"nothing arrived on {silent}. {_mismatches(node)}",
         expected="messages on all five topics",
         next="for these topics request no more than the publisher offers",
@@ -51,46 +51,46 @@ def receives_five_topics() -> str:
 
 def knows_the_mode_at_once() -> str:
     """Look whether the robot's last state arrives while the simulation is paused."""
-    _stand()
-    with _paused():
+    _ensure_standing()
+    with _paused_simulation():
         node = _start("robot_mode.py", {"on_state() missing": "pass the callback itself: self.on_state"})
-        comes_true(lambda: _told(node) or not node.is_running, 5.0)
+        comes_true(lambda: _printed_state(node) or not node.is_running, 5.0)
         _require_running(node, {})
-        if not _told(node):
+        if not _printed_state(node):
             raise _why_no_state(node)
-        return f"paused, and it knows at once: {_told(node)!r}"
+        return f"paused, and it knows at once: {_printed_state(node)!r}"
 
 
 def walks_one_metre() -> str:
     """Look how far the robot walks, and that the node does not end before the first odom."""
-    _stand()
-    with _paused():
+    _ensure_standing()
+    with _paused_simulation():
         hints = {"NoneType": "return from on_timer as long as self.start is None"}
         node = _start("one_metre.py", hints)
         comes_true(lambda: not node.is_running, 1.0)
         _require_running(node, hints)
     before = pose()
 
-    def gone() -> float:
+    def walked() -> float:
         """How far ahead of its start the robot is."""
         now = pose()
         return (now.x - before.x) * math.cos(before.yaw) + (now.y - before.y) * math.sin(before.yaw)
 
     began = time.monotonic()
     comes_true(lambda: mode() == "WALKING" or not node.is_running, 5.0)
-    comes_true(lambda: mode() != "WALKING" or gone() > METRE[1] or not node.is_running, 20.0)
+    comes_true(lambda: mode() != "WALKING" or walked() > ACCEPTED_DISTANCES[1] or not node.is_running, 20.0)
     _require_running(
         node, {"must be of type 'float'": "a float64 field needs a float: 0.3, not an int", **hints}
     )
-    distance = f"{gone():.2f} m"
+    distance = f"{walked():.2f} m"
     expect(
-        gone() > 0.03,
+        walked() > 0.03,
         seen=f"the robot is {distance} ahead of its start",
         expected="1 m, then standing",
         next="make a Twist, set its linear.x to 0.3 while the distance is below 1.0, and publish it with self.cmd_vel",
     )
     expect(
-        gone() > METRE[0],
+        walked() > ACCEPTED_DISTANCES[0],
         seen=f"the robot went {distance} and stopped",
         expected="1 m, then standing",
         next="publish in every call of on_timer, until the distance is 1.0: the robot obeys a command for 0.5 s only",
@@ -119,12 +119,12 @@ def _require_running(node: StudentNode, hints: Mapping[str, str]) -> None:
 
 
 def _ended(log: str, file: str, hints: Mapping[str, str]) -> Exception:
-    reason = last_words(log, file)
+    reason = last_error_or_line(log, file)
     advice = next((hint for part, hint in hints.items() if part in reason), NO_ERROR_HINT)
     return not_yet(f"the node has ended: {reason}", "a node that runs", advice)
 
 
-def _received(log: str) -> set[str]:
+def _received_topics(log: str) -> set[str]:
     """The topics in the line that monitor.py prints."""
     line = re.search(r"^received: (.+)$", log, re.MULTILINE)
     return set(line[1].split(", ")) if line else set()
@@ -134,7 +134,7 @@ def _mismatches(node: StudentNode) -> str:
     """Where the node requests more than is offered."""
     found = [
         f"On {topic.name} you request {end.qos_in_words()}, and the publisher offers {offered.qos_in_words()}."
-        for topic in topics_in_graph(*FIVE)
+        for topic in topics_in_graph(*TOPICS)
         for end in topic.subscriptions
         for offered in topic.incompatible_with(end)
         if end.node == f"{NAMESPACE}/monitor"
@@ -142,7 +142,7 @@ def _mismatches(node: StudentNode) -> str:
     return " ".join(found)
 
 
-def _told(node: StudentNode) -> str:
+def _printed_state(node: StudentNode) -> str:
     """The first line that on_state has printed, or ""."""
     line = re.search(r"^mode \d, motors .*$", node.log(), re.MULTILINE)
     return line[0] if line else ""
@@ -183,7 +183,7 @@ def _subscriptions_of(name: str) -> dict[str, str]:
     }
 
 
-def _stand() -> None:
+def _ensure_standing() -> None:
     """Have a robot that stands."""
     robot_process()
     if mode() in ("FALLEN", "OFF"):
@@ -192,13 +192,13 @@ def _stand() -> None:
 
 
 @contextmanager
-def _paused() -> Iterator[None]:
+def _paused_simulation() -> Iterator[None]:
     """The simulation stands still, so the robot publishes nothing."""
-    call(PAUSE, SetBool, SetBool.Request(data=True))
+    call(PAUSE_SERVICE, SetBool, SetBool.Request(data=True))
     try:
         yield
     finally:
-        call(PAUSE, SetBool, SetBool.Request(data=False))
+        call(PAUSE_SERVICE, SetBool, SetBool.Request(data=False))
 
 
 GAPS = (

@@ -12,11 +12,11 @@ from humanoid_interfaces.srv import GetBatteryStatus
 from lab.client.commands import publish
 from lab.client.waiting import comes_true
 from lab.learning.gap import Gap, expect
-from lab.learning.gap_checks import ask, asked, read_program
+from lab.learning.gap_check_helpers import call_student_service, read_program, run_student_code
 from lab.running.robot import start_robot, stop_robot
 from lab.running.student_nodes import StudentNode, run_node
 
-TO_HEAR_THE_ROBOT = 5.0  # s, on a busy machine
+ROBOT_STATE_TIMEOUT = 5.0  # s, on a busy machine
 UNKNOWN, HOME, ON = "stop and report", "walk home", "go on"
 DECISIONS = (  # available, percentage, what to do, what to look at when something else is done
     (False, 0.0, UNKNOWN, "look at response.available first: while it is false, the number means nothing"),
@@ -36,7 +36,7 @@ def answers_without_odom() -> str:
     stop_robot()
     server = run_node("where_am_i_fixed.py")
     hints = {"'NoneType' object": "return response inside the `if`: without it the callback goes on to odom"}
-    response = ask(server, "where_am_i", Trigger, hints=hints)
+    response = call_student_service(server, "where_am_i", Trigger, hints=hints)
     expect(
         not response.success,
         seen="success=True without one message on odom",
@@ -64,7 +64,7 @@ def refuses_an_impossible_start() -> str:
         )
         _require_stop(server, "before the first robot_state")
         start_robot()
-        heard = comes_true(lambda: _march(server, True).success, TO_HEAR_THE_ROBOT)
+        heard = comes_true(lambda: _march(server, True).success, ROBOT_STATE_TIMEOUT)
         expect(
             heard,
             seen="a start is refused although robot_state says motors_enabled",
@@ -72,7 +72,7 @@ def refuses_an_impossible_start() -> str:
             next="refuse a start only if `not self.state.motors_enabled`",
         )
         publish("motor_power", Bool(data=False))
-        comes_true(lambda: not _march(server, True).success, TO_HEAR_THE_ROBOT)
+        comes_true(lambda: not _march(server, True).success, ROBOT_STATE_TIMEOUT)
         off = _refused_start(
             server,
             "while the motors are off",
@@ -115,7 +115,7 @@ def _require_stop(server: StudentNode, when: str) -> None:
 
 def _march(server: StudentNode, on: bool) -> SetBool.Response:
     hints = {"'NoneType' object": "test `self.state is None` before you read self.state.motors_enabled"}
-    return ask(server, "march", SetBool, SetBool.Request(data=on), hints=hints)
+    return call_student_service(server, "march", SetBool, SetBool.Request(data=on), hints=hints)
 
 
 def decides_by_what_is_known() -> str:
@@ -124,7 +124,7 @@ def decides_by_what_is_known() -> str:
     for available, percentage, right, advice in DECISIONS:
         response = GetBatteryStatus.Response(available=available)
         response.battery.percentage = percentage
-        decision = asked(partial(decide, response), "careful_planner.py")
+        decision = run_student_code(partial(decide, response), "careful_planner.py")
         expect(
             decision == right,
             seen=f"with available={available}, percentage={percentage} it returned {decision!r}",

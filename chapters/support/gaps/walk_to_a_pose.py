@@ -10,17 +10,19 @@ from typing import Any
 from chapters.support import harness
 from chapters.support.harness.goal_server import REASON, STEPS
 from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_checks import last_words
+from lab.learning.gap_check_helpers import last_error_or_line
 from lab.running.programs import run_program
 from lab.running.student_nodes import run_node
 
-CALLBACKS = f"{harness.__path__[0]}/walk_callbacks.py"
-SERVER = f"{harness.__path__[0]}/goal_server.py"
-MOST = 40.0  # s for a trial; sound lines need up to 6 s
+TRIALS_PROGRAM = f"{harness.__path__[0]}/walk_callbacks.py"
+SERVER_PROGRAM = f"{harness.__path__[0]}/goal_server.py"
+TRIAL_TIMEOUT = 40.0  # s for a trial; correct lines need up to 6 s
 TOLERANCE = 0.10  # m, as the chapter's file has it
 GOAL = 0.5  # m ahead, in the trial
-PERIOD, FASTEST, SLOWEST = 0.2, 0.1, 0.35  # s between feedback messages: asked for, and accepted
-OLD = 0.07  # m by which feedback may differ from the robot: a command moves the toy robot 0.06 m
+PERIOD, MIN_PERIOD, MAX_PERIOD = 0.2, 0.1, 0.35  # s between feedback messages: asked for, and accepted
+MAX_FEEDBACK_ERROR = (
+    0.07  # m by which feedback may differ from the robot: a command moves the toy robot 0.06 m
+)
 FAILURES = ("ABORTED", "CANCELED", "UNKNOWN")
 TO_ACCEPT = ("1 m in base_link, while the robot stands", "3 m in base_link, while the robot stands")
 ADVICE = {
@@ -42,34 +44,36 @@ ADVICE = {
 
 def rejects_what_cannot_work() -> str:
     """Ask the goal callback about thirteen goals."""
-    answers = _trial("goals")
-    for answer in answers:
-        case, said = answer["case"], answer["said"]
+    trials = _trial("goals")
+    for trial in trials:
+        case, returned = trial["case"], trial["returned"]
         wanted = "ACCEPT" if case in TO_ACCEPT else "REJECT"
-        if said == "None":
+        if returned == "None":
             raise not_yet(
                 f"{case}: the callback returned nothing",
                 f"GoalResponse.{wanted}",
                 "end every path with a return",
             )
         expect(
-            said in ("ACCEPT", "REJECT") or "Error" in said,
-            seen=f"{case}: the callback returned {said}",
+            returned in ("ACCEPT", "REJECT") or "Error" in returned,
+            seen=f"{case}: the callback returned {returned}",
             expected=f"GoalResponse.{wanted}",
             next="return GoalResponse.ACCEPT or GoalResponse.REJECT; rclpy takes anything else for a rejection",
         )
         expect(
-            said == wanted,
-            seen=f"{case}: {said}",
+            returned == wanted,
+            seen=f"{case}: {returned}",
             expected=f"GoalResponse.{wanted}",
-            next="mend what this error names" if "Error" in said and "NoneType" not in said else ADVICE[case],
+            next="fix the error that is named here"
+            if "Error" in returned and "NoneType" not in returned
+            else ADVICE[case],
         )
-    return f"{len(TO_ACCEPT)} goals are accepted, {len(answers) - len(TO_ACCEPT)} rejected"
+    return f"{len(TO_ACCEPT)} goals are accepted, {len(trials) - len(TO_ACCEPT)} rejected"
 
 
 def measures_after_settling() -> str:
     """Walk a toy robot half a metre; somebody pushes it back when it stops."""
-    (seen,) = _trial("settles")
+    (seen,) = _trial("settling")
     returned, ended = seen["returned"], seen["ended"]
     if "had not ended" in returned:
         raise not_yet(
@@ -83,7 +87,7 @@ def measures_after_settling() -> str:
         expected="the result",
         next="return the result right after the terminal call"
         if "after succeed" in returned
-        else "mend what this error names",
+        else "fix the error that is named here",
     )
     expect(
         ended,
@@ -133,23 +137,23 @@ def measures_after_settling() -> str:
 
 def publishes_feedback() -> str:
     """Receive the feedback while a toy robot walks half a metre, is pushed back, and walks again."""
-    (seen,) = _trial("tells")
-    returned, told = seen["returned"], seen["told"]
+    (seen,) = _trial("feedback")
+    returned, messages = seen["returned"], seen["feedback"]
     expect(
         "Error" not in returned,
         seen=f"execute raised {returned}",
         expected="the result",
-        next="mend what this error names",
+        next="fix the error that is named here",
     )
     expect(
-        len(told) > 1,
-        seen=f"{'one' if told else 'no'} feedback message in the whole walk",
+        len(messages) > 1,
+        seen=f"{'one' if messages else 'no'} feedback message in the whole walk",
         expected=f"one every {PERIOD} s",
         next="call goal_handle.publish_feedback(feedback) in each round, not only in the last",
     )
-    _require_five_a_second([each["t"] for each in told])
-    _require_measured(told, seen["steps"])
-    last = told[-1]
+    _require_five_a_second([each["t"] for each in messages])
+    _require_measured(messages, seen["steps"])
+    last = messages[-1]
     expect(
         last["robot_stands"] and abs(last["robot_x"] - GOAL) <= TOLERANCE,
         seen=f"the last feedback came {abs(last['robot_x'] - GOAL):.2f} m from the goal, before the robot stood",
@@ -162,29 +166,29 @@ def publishes_feedback() -> str:
         expected="the result after succeed()",
         next="don't leave the loop: the lines below it end the goal",
     )
-    return f"{len(told)} feedback messages, five a second; the last came from where the robot stands"
+    return f"{len(messages)} feedback messages, five a second; the last came from where the robot stands"
 
 
 def _require_five_a_second(times: list[float]) -> None:
     """Require about PERIOD between most messages; when the robot stops, one may come later."""
     usual = median(after - before for before, after in pairwise(times))
     expect(
-        usual <= SLOWEST,
+        usual <= MAX_PERIOD,
         seen=f"a message every {usual:.1f} s: {1 / usual:.1g} Hz",
         expected=f"one every {PERIOD} s",
         next="wait for PERIOD in each round, and only there",
     )
     expect(
-        usual >= FASTEST,
+        usual >= MIN_PERIOD,
         seen=f"messages {1000 * usual:.0f} ms after one another",
         expected=f"one every {PERIOD} s",
         next="wait after each: time.sleep(PERIOD); a client keeps the last ten only",
     )
 
 
-def _require_measured(told: list[dict[str, Any]], steps: int) -> None:
+def _require_measured(messages: list[dict[str, Any]], steps: int) -> None:
     """Require that each field says what the robot was at, by the last odom and robot_state."""
-    echoed = {each["frame"] for each in told} - {"odom"}
+    echoed = {each["frame"] for each in messages} - {"odom"}
     expect(
         not echoed,
         seen="current_pose is the goal's pose, in base_link"
@@ -195,36 +199,36 @@ def _require_measured(told: list[dict[str, Any]], steps: int) -> None:
     )
     for field, key in (("current_pose", "x"), ("distance_remaining", "left")):
         expect(
-            len({each[key] for each in told}) > 1,
-            seen=f"{field} never changes: {told[0][key]:.2f} m in each of {len(told)} messages",
+            len({each[key] for each in messages}) > 1,
+            seen=f"{field} never changes: {messages[0][key]:.2f} m in each of {len(messages)} messages",
             expected="what is measured in that round",
             next="self.distance_left(goal_handle, start) and self.pose, anew in each round",
         )
-    negative = next((each for each in told if each["left"] < 0.0), None)
+    negative = next((each for each in messages if each["left"] < 0.0), None)
     expect(
         negative is None,
         seen=f"distance_remaining {negative['left']:.2f} m" if negative else "",
         expected="a distance, never below 0",
         next="abs(self.distance_left(goal_handle, start)): it is negative past the goal",
     )
-    for each in told:
+    for each in messages:
         expect(
-            abs(each["x"] - each["robot_x"]) <= OLD
-            and abs(each["left"] - abs(GOAL - each["robot_x"])) <= OLD,
+            abs(each["x"] - each["robot_x"]) <= MAX_FEEDBACK_ERROR
+            and abs(each["left"] - abs(GOAL - each["robot_x"])) <= MAX_FEEDBACK_ERROR,
             seen=f"at {each['robot_x']:.2f} m, current_pose says {each['x']:.2f} m and distance_remaining "
             f"{each['left']:.2f} m",
             expected=f"{each['robot_x']:.2f} m, and {abs(GOAL - each['robot_x']):.2f} m left",
             next="self.pose and abs(self.distance_left(goal_handle, start)), after go_on",
         )
     expect(
-        told[-1]["steps"] == steps,
-        seen=f"steps_taken {told[-1]['steps']} at the end",
+        messages[-1]["steps"] == steps,
+        seen=f"steps_taken {messages[-1]['steps']} at the end",
         expected=f"{steps}, counted from the start of this goal",
         next="feedback.steps_taken = self.state.steps - start.steps",
     )
     expect(
-        all(each["seconds"] > 0.0 for each in told if each["left"] > TOLERANCE),
-        seen=f"estimated_time_remaining 0 s, with {told[0]['left']:.2f} m left",
+        all(each["seconds"] > 0.0 for each in messages if each["left"] > TOLERANCE),
+        seen=f"estimated_time_remaining 0 s, with {messages[0]['left']:.2f} m left",
         expected="the time for that distance at SPEED",
         next="Duration(seconds=left / SPEED).to_msg()",
     )
@@ -232,14 +236,14 @@ def _require_measured(told: list[dict[str, Any]], steps: int) -> None:
 
 def reads_the_status_first() -> str:
     """Run the client beside a server whose goals succeed, and end in each other way."""
-    run_node(SERVER, "SUCCEEDED", *FAILURES)
+    run_node(SERVER_PROGRAM, "SUCCEEDED", *FAILURES)
     sound, *failed = (run_program("follow.py", "1.0") for _ in ("SUCCEEDED", *FAILURES))
     for how, program in (("SUCCEEDED", sound), *zip(FAILURES, failed, strict=True)):
         expect(
             "Traceback" not in program.stderr,
-            seen=f"{how}: {last_words(program.stderr, 'follow.py')}",
+            seen=f"{how}: {last_error_or_line(program.stderr, 'follow.py')}",
             expected="a client without a traceback",
-            next="mend what this error names",
+            next="fix the error that is named here",
         )
     for how, program in zip(FAILURES, failed, strict=True):
         expect(
@@ -288,17 +292,19 @@ def _trial(name: str) -> list[dict[str, Any]]:
 
     Raises GapError when the program ended before that.
     """
-    program = run_program(CALLBACKS, name, timeout=MOST)
+    program = run_program(TRIALS_PROGRAM, name, timeout=TRIAL_TIMEOUT)
     seen = [json.loads(line) for line in program.stdout.splitlines() if line.startswith("{")]
     if not seen and program.stopped:
         raise not_yet(
-            f"the callback had not returned after {MOST:.0f} s",
+            f"the callback had not returned after {TRIAL_TIMEOUT:.0f} s",
             "a callback that returns",
             "look for a loop that does not end",
         )
     if not seen:
         reason = (program.stderr.strip().splitlines() or ["it printed nothing"])[-1]
-        raise not_yet(f"the program ended: {reason}", "a callback that returns", "mend what this error names")
+        raise not_yet(
+            f"the program ended: {reason}", "a callback that returns", "fix the error that is named here"
+        )
     return seen
 
 

@@ -12,7 +12,7 @@ from geometry_msgs.msg import PointStamped
 
 from lab.errors import LabError
 from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_checks import ask
+from lab.learning.gap_check_helpers import call_student_service
 from lab.running.student_nodes import run_node
 from ros_runtime.interface_build.definitions import SEPARATOR, InvalidDefinitions, Part
 from ros_runtime.interface_build.student_package import checked_definitions
@@ -65,8 +65,10 @@ def refuses_another_frame() -> str:
     except ImportError:
         raise LabError("my_interfaces is not built: run the cell with lab.build_interfaces first") from None
     server = run_node("can_reach.py")
-    hints = {"AttributeError": "mend the name: CanReach.srv has error_code, message and distance"}
-    refused = ask(server, "can_reach", CanReach, CanReach.Request(target=_point("odom")), hints=hints)
+    hints = {"AttributeError": "fix the name: CanReach.srv has error_code, message and distance"}
+    refused = call_student_service(
+        server, "can_reach", CanReach, CanReach.Request(target=_point("odom")), hints=hints
+    )
     codes = CanReach.Response
     expect(
         refused.error_code != codes.SUCCESS,
@@ -92,7 +94,9 @@ def refuses_another_frame() -> str:
         expected="a sentence for people that names the frame odom",
         next="put the variable frame into response.message",
     )
-    answered = ask(server, "can_reach", CanReach, CanReach.Request(target=_point("shoulder")), hints=hints)
+    answered = call_student_service(
+        server, "can_reach", CanReach, CanReach.Request(target=_point("shoulder")), hints=hints
+    )
     expect(
         answered.error_code == codes.SUCCESS,
         seen=f"in frame shoulder: error_code {answered.error_code}",
@@ -124,7 +128,7 @@ def _result() -> Part:
                 "put = between name and value: it makes a constant of them",
             ) from None
         seen = f"line {first.line}: {first.text}: {first.wrong}" if first.line else first.wrong
-        raise not_yet(seen, first.expected, "mend that line") from None
+        raise not_yet(seen, first.expected, "fix this line") from None
     return next(each for each in definitions if each.name == ACTION).parts["result"]
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import lab
-from lab.learning.progress_file import keep, kept
+from lab.learning.progress_file import read_entries, store_entry
 from lab.running import programs_folder
 
 
@@ -56,8 +56,12 @@ def test_programs_beside_the_notebook_are_kept_named_and_not_used(
 
 
 def test_progress_stays_beside_the_notebooks(notebooks: Path) -> None:
-    keep("predictions", "before", "one")
+    store_entry("predictions", "before", "one")
     lab.keep_programs_in("programs/02_services")
-    keep("predictions", "after", "two")
-    assert kept("predictions", notebooks) == kept("predictions") == {"before": "one", "after": "two"}
+    store_entry("predictions", "after", "two")
+    assert (
+        read_entries("predictions", notebooks)
+        == read_entries("predictions")
+        == {"before": "one", "after": "two"}
+    )
     assert not list((notebooks / "programs").rglob(".progress.json"))
