@@ -286,7 +286,7 @@ def _status(goal: Goal) -> str:
 def _complaint(node: StudentNode) -> str:
     """Return the last error in a node's log as the end of a `seen` sentence; "" without an error."""
     error = last_error(node.log(), node.file.name)
-    return f"; its log says: {error}" if error else ""
+    return f"; the node's log says: {error}" if error else ""
 
 
 GAPS = (
