@@ -96,7 +96,7 @@ def test_an_exception_in_a_task_is_lost_until_somebody_reads_its_result(chapter:
         ("if not response.success:\n    return 1", "file=sys.stderr"),
         (
             "if not response.success:\n    print(response.message, file=sys.stderr)\n    return",
-            "exit status is 0",
+            "ended with exit status 0",
         ),
         (
             "print(response.message, file=sys.stderr)\nreturn 1",
