@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from lab.client.services import call
-from lab.client.waiting import comes_true
+from lab.client.waiting import becomes_true
 from lab.errors import NoAnswerError
 from lab.learning.gap import not_yet
 from lab.running.student_nodes import StudentNode
@@ -40,7 +40,7 @@ def call_student_service(
         return call(name, service_type, request)
     except NoAnswerError:
         pass
-    ended = comes_true(lambda: not server.is_running, TO_END)
+    ended = becomes_true(lambda: not server.is_running, TO_END)
     reason = last_error_or_line(server.log(), server.file.name)
     if ended:
         known = {**hints, **HINTS}

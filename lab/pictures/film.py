@@ -19,7 +19,7 @@ from sensor_msgs.msg import JointState
 
 from lab.client import topics
 from lab.pictures.labels import Mark
-from lab.pictures.picture import HEIGHT, WIDTH, as_mujoco, figure, take_present_posture
+from lab.pictures.picture import HEIGHT, WIDTH, as_mujoco, figure, set_current_posture
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.film import Reel
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
@@ -45,7 +45,7 @@ def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: 
         began = time.monotonic()
         for frame in range(_frames(seconds)):
             time.sleep(max(0.0, began + frame / RATE - time.monotonic()))
-            take_present_posture(body)
+            set_current_posture(body)
             yield
 
     return _film(postures, words, lambda: f"{words}, to {topics.pose()}", camera, file, topics.scene())
@@ -79,12 +79,12 @@ def film_of_messages(
     words += f"; it ends {math.dist((begin.x, begin.y), (end.x, end.y)):.2f} m from where it began"
 
     def postures(body: Humanoid) -> Iterator[None]:
-        return take_postures(body, np.arange(count) / RATE / slow_motion, odometry, joints, objects)
+        return set_postures(body, np.arange(count) / RATE / slow_motion, odometry, joints, objects)
 
     return _film(postures, words, lambda: words, camera, file, scene)
 
 
-def take_postures(
+def set_postures(
     body: Humanoid,
     at: np.ndarray,
     odometry: Sequence[tuple[float, Odometry]],

@@ -15,7 +15,7 @@ from PIL import Image, ImageDraw
 from lab.client import topics
 from lab.errors import LabError
 from lab.pictures.figure import BLUE, GREY, VERMILION
-from lab.pictures.film import MAX_DURATION, RATE, take_postures
+from lab.pictures.film import MAX_DURATION, RATE, set_postures
 from lab.pictures.lettering import font
 from lab.pictures.picture import figure
 from lab.pictures.recorded_goal import RecordedGoal
@@ -27,10 +27,10 @@ from ros_runtime.message_constants import RobotMode, name_of
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 WIDTH, HEIGHT, ABOVE, BELOW = 330, 330, 30, 66  # px: of a picture, and of the texts above and below it
-LEGEND, DOT = 26, 6  # px
-BEFORE = 0.4  # s before the goal is sent
+LEGEND, DOT_RADIUS = 26, 6  # px
+LEAD_TIME = 0.4  # s before the goal is sent
 GRAVITY = 9.81  # m/s²
-ENDED = {"SUCCEEDED": "#007A5E", "ABORTED": VERMILION, "CANCELED": VERMILION}
+STATUS_COLOURS = {"SUCCEEDED": "#007A5E", "ABORTED": VERMILION, "CANCELED": VERMILION}
 
 
 def film_beside(recordings: Mapping[str, Recording], *, camera: str = "side") -> HTML:
@@ -83,7 +83,7 @@ class _Walk:
 
     @property
     def begin(self) -> float:
-        return max(0.0, self.goal.sent - BEFORE)
+        return max(0.0, self.goal.sent - LEAD_TIME)
 
     @property
     def seconds(self) -> float:
@@ -95,7 +95,7 @@ class _Walk:
         body = Humanoid(topics.scene())
         view = View(body, WIDTH, HEIGHT, shadows=False)
         try:
-            postures = take_postures(
+            postures = set_postures(
                 body, at, self.recording.messages("odom"), self.recording.messages("joint_states"), {}
             )
             return [self._frame(view, camera, t) for t, _ in zip(at, postures, strict=True)]
@@ -139,9 +139,9 @@ class _Walk:
         draw = ImageDraw.Draw(seen)
         for (x, y), colour, flat in ((self.place, BLUE, 0.45), (self.capture_point(t), VERMILION, 1.0)):
             right, down = view.pixel_of((x, y, 0.0))
-            size = DOT / flat
+            size = DOT_RADIUS / flat
             draw.ellipse(
-                (right - size, down - DOT * flat, right + size, down + DOT * flat),
+                (right - size, down - DOT_RADIUS * flat, right + size, down + DOT_RADIUS * flat),
                 fill=colour,
                 outline="white",
             )
@@ -150,7 +150,7 @@ class _Walk:
         draw.text((8, 6), self.name, font=font(15, bold=True), fill="black")
         draw.text((WIDTH - 8, 8), f"{t - self.goal.sent:.1f} s", font=font(13), fill=GREY, anchor="ra")
         status, below = self.goal.status_at(t), ABOVE + HEIGHT
-        draw.text((8, below + 6), status, font=font(19, bold=True), fill=ENDED.get(status, GREY))
+        draw.text((8, below + 6), status, font=font(19, bold=True), fill=STATUS_COLOURS.get(status, GREY))
         draw.text(
             (WIDTH - 8, below + 9), self.mode_at(t), font=font(15, bold=True), fill="black", anchor="ra"
         )

@@ -24,12 +24,12 @@ from robot_sim.views.film import save_frames
 from ros_runtime.angles import wrap
 
 WIDTH = 600  # px
-LOWEST, HIGHEST = 150, 420  # px, of the floor
+MIN_HEIGHT, MAX_HEIGHT = 150, 420  # px, of the floor
 ABOVE, BELOW = 62, 30  # px, of the texts
-FINER = 2  # times as fine is it drawn, for smooth lines
+OVERSAMPLING = 2  # times as fine is it drawn, for smooth lines
 MARGIN = 0.4  # m of floor around everything
-WEDGE = 0.45  # m, the radius of the bearing's wedge
-FLASH, NEWS = 0.8, 2.5  # s that a moment flashes, and that its label stays
+WEDGE_RADIUS = 0.45  # m, the radius of the bearing's wedge
+FLASH_DURATION, LABEL_DURATION = 0.8, 2.5  # s that a moment flashes, and that its label stays
 COLOURS = (BLUE, VERMILION, "#007A5E", "#8A4F7D", GREY)
 BODY = ((0.14, 0.0), (0.04, 0.16), (-0.08, 0.16), (-0.08, -0.16), (0.04, -0.16))  # m, its nose first
 
@@ -72,7 +72,7 @@ class _Trip:
         goal = recording.goal()
         base = recording.messages("odom")[0][1].pose.pose
         place = goal.place(base)
-        if place is None or not any(hasattr(told, "status") for _, told in goal.feedback):
+        if place is None or not any(hasattr(message, "status") for _, message in goal.feedback):
             raise LabError(
                 "the last goal has no pose, or no feedback with a `status`, so there is no trip to film"
             )
@@ -83,16 +83,16 @@ class _Trip:
     @property
     def phases(self) -> list[tuple[float, str]]:
         """When each phase began, and its name."""
-        told = [(t, feedback.status) for t, feedback in self.goal.feedback]
-        return [told[0], *(later for earlier, later in pairwise(told) if earlier[1] != later[1])]
+        statuses = [(t, feedback.status) for t, feedback in self.goal.feedback]
+        return [statuses[0], *(later for earlier, later in pairwise(statuses) if earlier[1] != later[1])]
 
     @property
     def colours(self) -> dict[str, str]:
         return dict(zip(dict.fromkeys(phase for _, phase in self.phases), COLOURS * 9, strict=False))
 
     def phase_at(self, t: float) -> str | None:
-        told = self.goal.feedback_at(t)
-        return None if told is None else told.status
+        message = self.goal.feedback_at(t)
+        return None if message is None else message.status
 
     def distance(self, frame: int) -> float:
         return math.dist((self.xs[frame], self.ys[frame]), self.place)
@@ -126,9 +126,9 @@ class _Floor:
         xs = [trip.xs.min(), trip.xs.max(), trip.place[0] - reach, trip.place[0] + reach]
         ys = [trip.ys.min(), trip.ys.max(), trip.place[1] - reach, trip.place[1] + reach]
         wide, deep = max(xs) - min(xs) + 2 * MARGIN, max(ys) - min(ys) + 2 * MARGIN
-        scale = min(WIDTH / wide, HIGHEST / deep) * FINER
-        height = max(LOWEST * FINER, round(deep * scale))
-        left = (min(xs) + max(xs)) / 2 - WIDTH * FINER / scale / 2
+        scale = min(WIDTH / wide, MAX_HEIGHT / deep) * OVERSAMPLING
+        height = max(MIN_HEIGHT * OVERSAMPLING, round(deep * scale))
+        left = (min(xs) + max(xs)) / 2 - WIDTH * OVERSAMPLING / scale / 2
         return cls(left, (min(ys) + max(ys)) / 2 + height / scale / 2, scale, height, reach)
 
     def frames(self, trip: _Trip) -> list[Image.Image]:
@@ -141,24 +141,30 @@ class _Floor:
             colour = GREY if phase is None else trip.colours[phase]
             if frame:
                 before = self._px(trip.xs[frame - 1], trip.ys[frame - 1])
-                path.line((*before, *here), fill=colour, width=3 * FINER)
+                path.line((*before, *here), fill=colour, width=3 * OVERSAMPLING)
             shown.append(self._frame(paper.copy(), trip, frame, colour))
         return shown
 
     def _empty(self, trip: _Trip) -> Image.Image:
         """The floor with a line each half metre, the goal and its circle."""
-        paper = Image.new("RGB", (WIDTH * FINER, self.height), "#f7f7f7")
+        paper = Image.new("RGB", (WIDTH * OVERSAMPLING, self.height), "#f7f7f7")
         draw = ImageDraw.Draw(paper)
         for metre in np.arange(math.floor(self.left), self.left + paper.width / self.scale, 0.5):
             draw.line(
-                (self._px(metre, 0)[0], 0, self._px(metre, 0)[0], self.height), fill="#e2e2e2", width=FINER
+                (self._px(metre, 0)[0], 0, self._px(metre, 0)[0], self.height),
+                fill="#e2e2e2",
+                width=OVERSAMPLING,
             )
         for metre in np.arange(math.floor(self.upper - self.height / self.scale), self.upper, 0.5):
             draw.line(
-                (0, self._px(0, metre)[1], paper.width, self._px(0, metre)[1]), fill="#e2e2e2", width=FINER
+                (0, self._px(0, metre)[1], paper.width, self._px(0, metre)[1]),
+                fill="#e2e2e2",
+                width=OVERSAMPLING,
             )
-        self._circle(draw, self._px(*trip.place), self.reach * self.scale, outline=GREY, width=2 * FINER)
-        self._circle(draw, self._px(*trip.place), 5 * FINER, fill="black")
+        self._circle(
+            draw, self._px(*trip.place), self.reach * self.scale, outline=GREY, width=2 * OVERSAMPLING
+        )
+        self._circle(draw, self._px(*trip.place), 5 * OVERSAMPLING, fill="black")
         return paper
 
     def _frame(self, paper: Image.Image, trip: _Trip, frame: int, colour: str) -> Image.Image:
@@ -166,7 +172,9 @@ class _Floor:
         draw = ImageDraw.Draw(paper, "RGBA")
         x, y = trip.xs[frame], trip.ys[frame]
         arc = [heading + bearing * part / 24 for part in range(25)]
-        wedge = [self._px(x + WEDGE * math.cos(angle), y + WEDGE * math.sin(angle)) for angle in arc]
+        wedge = [
+            self._px(x + WEDGE_RADIUS * math.cos(angle), y + WEDGE_RADIUS * math.sin(angle)) for angle in arc
+        ]
         draw.polygon([self._px(x, y), *wedge], fill=(*bytes.fromhex(colour[1:]), 70))
         turned = (
             (
@@ -176,11 +184,13 @@ class _Floor:
             for a, b in BODY
         )
         draw.polygon([self._px(*corner) for corner in turned], fill=colour, outline="white")
-        last = next((mark for mark in reversed(trip.marks) if mark.time <= t < mark.time + NEWS), None)
-        if last is not None and t < last.time + FLASH:
-            size = (0.2 + 0.5 * (t - last.time) / FLASH) * self.scale
-            self._circle(draw, self._px(x, y), size, outline=VERMILION, width=4 * FINER)
-        return self._with_texts(paper.resize((WIDTH, self.height // FINER)), trip, frame, last)
+        last = next(
+            (mark for mark in reversed(trip.marks) if mark.time <= t < mark.time + LABEL_DURATION), None
+        )
+        if last is not None and t < last.time + FLASH_DURATION:
+            size = (0.2 + 0.5 * (t - last.time) / FLASH_DURATION) * self.scale
+            self._circle(draw, self._px(x, y), size, outline=VERMILION, width=4 * OVERSAMPLING)
+        return self._with_texts(paper.resize((WIDTH, self.height // OVERSAMPLING)), trip, frame, last)
 
     def _with_texts(self, floor: Image.Image, trip: _Trip, frame: int, last: Mark | None) -> Image.Image:
         image = Image.new("RGB", (WIDTH, ABOVE + floor.height + BELOW), "white")
@@ -201,7 +211,7 @@ class _Floor:
         below = ABOVE + floor.height
         if last is not None:
             draw.text((10, below + 6), last.label, font=font(14, bold=True), fill=VERMILION)
-        half = round(self.scale / FINER / 2)
+        half = round(self.scale / OVERSAMPLING / 2)
         draw.line((WIDTH - 10 - half, below + 8, WIDTH - 10, below + 8), fill="black", width=2)
         draw.text((WIDTH - 10, below + 11), "0.5 m", font=font(12), fill="black", anchor="ra")
         return image

@@ -19,9 +19,9 @@ from ros_runtime.drawing.svg import svg
 from ros_runtime.drawing.xml_text import escape
 
 WIDTH, ROW, ABOVE = 700, 56, 58  # px
-NAME, GROUP, THREAD, RUNS = 12, 190, 430, 600  # px, where the parts of a row begin
+NAME_X, GROUP_X, THREAD_X, RUNS_X = 12, 190, 430, 600  # px, where the parts of a row begin
 MOMENTS = 41  # on the slider
-OPEN = "#007A5E"
+FREE_COLOUR = "#007A5E"
 
 
 def draw_gates(
@@ -45,7 +45,7 @@ def draw_gates(
     zero = steps[0].time
     spans = [
         Span(span.lane, span.callback, span.begin - zero, span.end - zero, span.is_over)
-        for span in spans_of(steps, max(steps[-1].time, node.life().ended or time.monotonic()))
+        for span in spans_of(steps, max(steps[-1].time, node.history().ended or time.monotonic()))
     ]
     longest = max(spans, key=lambda span: span.end - span.begin)
     moments = np.linspace(0.0, max(span.end for span in spans), MOMENTS)
@@ -86,12 +86,12 @@ class _Gates:
         words: list[str] = []
         parts = [
             f'<text x="{x}" y="48" font-size="12" fill="{GREY}">{gate}</text>'
-            for x, gate in ((GROUP, "first gate: its group"), (THREAD, "second gate: a thread"))
+            for x, gate in ((GROUP_X, "first gate: its group"), (THREAD_X, "second gate: a thread"))
         ]
         for row, name in enumerate(names):
-            drawn, told = self._row(name, ABOVE + row * ROW)
+            drawn, sentence = self._row(name, ABOVE + row * ROW)
             parts += drawn
-            words.append(told)
+            words.append(sentence)
         title = f"The gates at {self.moment:.2f} s"
         height = ABOVE + ROW * len(names) + 8
         return svg(parts, width=WIDTH, height=height, title=title, words=" ".join(words))
@@ -102,21 +102,24 @@ class _Gates:
         held = [span.lane for span in self._now() if span.callback == name]
         if held:
             place = "awaits, on no thread" if held[-1] == NO_THREAD else "runs"
-            shown = [*_name(name, y), _pill(GROUP, y, 410, f"{place}; it keeps its group, the {group}", BLUE)]
+            shown = [
+                *_name(name, y),
+                _pill(GROUP_X, y, 410, f"{place}; it keeps its group, the {group}", BLUE),
+            ]
             return shown, f"{name} {place} and keeps the {group}."
         first = f"{group}: {keeper} is in" if keeper else f"{group}: free"
         second = f"{max(free, 0)} of {self.threads} threads free"
         is_open = keeper is None and free > 0
         return [
             *_name(name, y),
-            _pill(GROUP, y, 230, first, VERMILION if keeper else OPEN),
-            _pill(THREAD, y, 160, second, OPEN if free > 0 else VERMILION),
-            f'<text x="{RUNS}" y="{y + 25}" font-weight="bold">{"may run" if is_open else "waits"}</text>',
+            _pill(GROUP_X, y, 230, first, VERMILION if keeper else FREE_COLOUR),
+            _pill(THREAD_X, y, 160, second, FREE_COLOUR if free > 0 else VERMILION),
+            f'<text x="{RUNS_X}" y="{y + 25}" font-weight="bold">{"may run" if is_open else "waits"}</text>',
         ], f"{name}, if it is due, {'may run' if is_open else 'waits'}: {first}, {second}."
 
 
 def _name(name: str, y: float) -> list[str]:
-    return [f'<text x="{NAME}" y="{y + 25}">{escape(name)}</text>']
+    return [f'<text x="{NAME_X}" y="{y + 25}">{escape(name)}</text>']
 
 
 def _pill(x: float, y: float, width: float, text: str, colour: str) -> str:

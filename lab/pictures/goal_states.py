@@ -23,7 +23,7 @@ from ros_runtime.record.client_events import (
 
 WIDTH, HEIGHT = 700, 286  # px
 BOX = (128, 44)  # px
-LIT = "#D6E8F5"
+LIT_COLOUR = "#D6E8F5"
 PLACES = {  # of each box's middle, px
     "REJECTED": (84, 234),
     "ACCEPTED": (236, 90),
@@ -52,7 +52,7 @@ CAUSES = {  # of changes, and where the middle of each stands, px
     "cancel accepted": (458, 162),
     "canceled()": (508, 252),
 }
-HOLD = 2.0  # s that the last state stays lit before it begins again
+HOLD_DURATION = 2.0  # s that the last state stays lit before it begins again
 
 
 def draw_goal_states(title: str = "The states of the last goal") -> HTML:
@@ -73,8 +73,8 @@ def draw_goal_states(title: str = "The states of the last goal") -> HTML:
         f'<text x="{x}" y="{y}" text-anchor="middle">{cause}</text>' for cause, (x, y) in CAUSES.items()
     ]
     parts += [_box(status, times, key) for status in ("SENT", *PLACES)]
-    told = ", then ".join(f"{status} at {at:.2f} s" for status, at in times.items())
-    return HTML(svg(parts, width=WIDTH, height=HEIGHT, title=title, words=f"{title}: {told}."))
+    words = ", then ".join(f"{status} at {at:.2f} s" for status, at in times.items())
+    return HTML(svg(parts, width=WIDTH, height=HEIGHT, title=title, words=f"{title}: {words}."))
 
 
 def _reached(goal: RecordedGoal) -> list[tuple[str, float]]:
@@ -88,7 +88,7 @@ def _reached(goal: RecordedGoal) -> list[tuple[str, float]]:
 
 def _style(times: dict[str, float], key: str) -> str:
     """The animation of each state: dim until its time, then lit."""
-    whole = max(times.values()) + HOLD
+    whole = max(times.values()) + HOLD_DURATION
     rules = [
         f"@keyframes {key}-{status} {{ 0%, {100 * at / whole:.2f}% {{ opacity: 0 }} "
         f"{100 * at / whole + 0.01:.2f}%, 100% {{ opacity: 1 }} }}\n"
@@ -110,7 +110,7 @@ def _box(status: str, times: dict[str, float], key: str) -> str:
     if status not in times:
         return dim
     return (
-        f'{dim}<g class="{key}-{status}">{frame} fill="{LIT}" stroke="{BLUE}" stroke-width="2.5"/>'
+        f'{dim}<g class="{key}-{status}">{frame} fill="{LIT_COLOUR}" stroke="{BLUE}" stroke-width="2.5"/>'
         f'{text} font-weight="bold">{number}{label}</text>'
         f'<text x="{x}" y="{y + 15}" text-anchor="middle" font-size="12">{times[status]:.2f} s</text></g>'
     )

@@ -11,14 +11,14 @@ from PIL import Image
 
 from lab.client import topics
 from lab.errors import NoRobotError
-from lab.pictures.picture import HEIGHT, WIDTH, take_present_posture
+from lab.pictures.picture import HEIGHT, WIDTH, set_current_posture
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.view import View
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
-FRAMES = 12.0  # a second, at most
-SHARE = 0.4  # highest share of time spent drawing, so that the notebook gets the rest
-FIRST_FRAME_WITHIN = 20.0  # s
+MAX_FRAME_RATE = 12.0  # a second, at most
+MAX_DRAWING_SHARE = 0.4  # highest share of time spent drawing, so that the notebook gets the rest
+FIRST_FRAME_TIMEOUT = 20.0  # s
 
 _running: _LiveView | None = None
 
@@ -67,8 +67,8 @@ class _LiveView:
     def begin(self) -> None:
         """Wait for the first frame; raises the error that prevented it."""
         self._thread.start()
-        if not self._begun.wait(FIRST_FRAME_WITHIN):
-            self._problem = NoOpenGLError(f"nothing was drawn within {FIRST_FRAME_WITHIN:g} s")
+        if not self._begun.wait(FIRST_FRAME_TIMEOUT):
+            self._problem = NoOpenGLError(f"nothing was drawn within {FIRST_FRAME_TIMEOUT:g} s")
         if self._problem is not None:
             self._stop.set()
             raise self._problem
@@ -94,7 +94,7 @@ class _LiveView:
         while not self._stop.is_set():
             began = time.monotonic()
             try:
-                take_present_posture(body)
+                set_current_posture(body)
                 self.widget.value = _jpeg(view.picture(self._camera))
             except NoRobotError:  # the robot may come back
                 pass
@@ -103,7 +103,7 @@ class _LiveView:
                 self._stop.set()
             self._begun.set()
             spent = time.monotonic() - began
-            self._stop.wait(max(1 / FRAMES - spent, spent * (1 / SHARE - 1)))
+            self._stop.wait(max(1 / MAX_FRAME_RATE - spent, spent * (1 / MAX_DRAWING_SHARE - 1)))
 
 
 def _jpeg(pixels) -> bytes:  # (height, width, 3) uint8

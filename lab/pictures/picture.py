@@ -29,7 +29,7 @@ def show_robot(camera: str = "track") -> HTML:
     """
     words = f"The robot: {topics.mode()} at {topics.pose()}"
     body = _body(topics.scene())
-    take_present_posture(body)
+    set_current_posture(body)
     try:
         pixels = snapshot(body, WIDTH, HEIGHT, camera=camera)
     except NoOpenGLError as error:
@@ -55,7 +55,7 @@ def _body(scene: str) -> Humanoid:
     return Humanoid(scene)
 
 
-def take_present_posture(body: Humanoid) -> None:
+def set_current_posture(body: Humanoid) -> None:
     """Set the pose and joints of a humanoid, and its objects, from the last messages.
 
     Raises NoRobotError when there are none.

@@ -88,5 +88,5 @@ def plot_means(recordings: Mapping[str, Recording], x: str, y: str, *, title: st
         axes.set_xlabel(across)
         axes.set_ylabel(up)
         axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
-        told = [f"{name}: {across} {a:.2f}, {up} {b:.2f}." for name, (a, b) in points.items()]
-        return as_html(page, " ".join([f"{title}.", *told]))
+        sentences = [f"{name}: {across} {a:.2f}, {up} {b:.2f}." for name, (a, b) in points.items()]
+        return as_html(page, " ".join([f"{title}.", *sentences]))

@@ -16,12 +16,12 @@ from ros_runtime.angles import yaw_of
 class Quantity:
     """A measured quantity in `unit`, read from the messages of `topic`.
 
-    The plot's axis spans at least `least_range`, so that noise does not look like a motion; `is_angle`: wraps at ±π.
+    The plot's axis spans at least `min_range`, so that noise does not look like a motion; `is_angle`: wraps at ±π.
     """
 
     topic: str
     unit: str
-    least_range: float
+    min_range: float
     read: Callable[[Any], float]
     is_angle: bool = False
 

@@ -17,7 +17,7 @@ from IPython.display import HTML
 from lab.client import topics
 from lab.client.interaction_log import log
 from lab.client.messages import label_of
-from lab.client.waiting import comes_true
+from lab.client.waiting import becomes_true
 from lab.errors import LabError
 from lab.pictures.film import film_of_messages
 from lab.pictures.labels import Mark
@@ -27,7 +27,7 @@ from lab.pictures.time_plot import Area, Curve, draw_panels
 from ros_runtime.message_constants import RobotMode, name_of
 from ros_runtime.record.event import Event
 
-LAST_MESSAGES_WITHIN = 1.0  # s after the end of the block; odom has 20 Hz
+LAST_MESSAGES_TIMEOUT = 1.0  # s after the end of the block; odom has 20 Hz
 
 
 @contextmanager
@@ -43,14 +43,14 @@ def record_robot() -> Iterator[Recording]:
     before = {topic: topics.latest(topic) for topic in topics.TOPICS}
     recording = Recording()
     for topic, message in before.items():
-        recording.keep(topic, message)
-    with topics.listening(recording.keep):
-        with log.listening(recording.note):
+        recording.add_message(topic, message)
+    with topics.listening(recording.add_message):
+        with log.listening(recording.add_event):
             try:
                 yield recording
             finally:
                 recording.end()
-        comes_true(recording.has_all_messages, LAST_MESSAGES_WITHIN)
+        becomes_true(recording.has_all_messages, LAST_MESSAGES_TIMEOUT)
 
 
 class Recording:
@@ -161,7 +161,7 @@ class Recording:
             raise LabError('say what to plot, for example recording.plot("speed", "height")')
         kinds = [quantity_named(name) for name in quantities]
         curves = [
-            Curve(name, kind.unit, kind.least_range, *self.values(name))
+            Curve(name, kind.unit, kind.min_range, *self.values(name))
             for name, kind in zip(quantities, kinds, strict=True)
         ]
         return draw_panels(
@@ -202,12 +202,12 @@ class Recording:
             file=file,
         )
 
-    def keep(self, topic: str, message: Any) -> None:
+    def add_message(self, topic: str, message: Any) -> None:
         """Add a message of one of the robot's topics."""
         stamp = message.header.stamp
         self._messages[topic].append((stamp.sec + stamp.nanosec * 1e-9 - self._start_of_stamps, message))
 
-    def note(self, event: Event) -> None:
+    def add_event(self, event: Event) -> None:
         """Add an event of the notebook; requests and answers get a label in plots."""
         self._events.append(event)
         label = label_of(event)

@@ -70,7 +70,7 @@ def draw_threads(node: StudentNode, *, title: str = "Which callback ran on which
             "traced() in its callbacks, and let it run for a moment"
         )
     return plot_spans(
-        spans_of(steps, max(steps[-1].time, node.life().ended or time.monotonic())), title=title
+        spans_of(steps, max(steps[-1].time, node.history().ended or time.monotonic())), title=title
     )
 
 
@@ -163,16 +163,16 @@ def _draw_legend(axis: Axes, colours: dict[str, str]) -> None:
 
 
 def _in_words(title: str, spans: Sequence[Span], lanes: Sequence[str], zero: float) -> str:
-    told = [f"{title}."]
+    sentences = [f"{title}."]
     for lane in lanes:
         here = [span for span in spans if span.lane == lane]
-        told.append(f"{lane}: " + "; ".join(_several(name, here, zero) for name in _names(here)) + ".")
+        sentences.append(f"{lane}: " + "; ".join(_several(name, here, zero) for name in _names(here)) + ".")
     for name in _names(spans):
         begins = [span.begin for span in spans if span.callback == name and span.lane != NO_THREAD]
         if len(begins) > 2:
             longest = max(later - earlier for earlier, later in pairwise(begins))
-            told.append(f"Longest time from one {name} to the next: {longest:.2f} s.")
-    return " ".join(told)
+            sentences.append(f"Longest time from one {name} to the next: {longest:.2f} s.")
+    return " ".join(sentences)
 
 
 def _names(spans: Iterable[Span]) -> list[str]:

@@ -15,16 +15,16 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 WIDTH, HEIGHT, SPACE = 6.6, 1.6, 0.18  # inches: of a panel, and between two
-FEW = 40  # up to this number of values, each is also drawn as a point
+MAX_DRAWN_POINTS = 40  # up to this number of values, each is also drawn as a point
 TIME = "s since the recording began (system clock)"
 
 
 class Curve(NamedTuple):
-    """Values of a quantity (in `unit`) at the given times (s); its panel shows at least `least_range`."""
+    """Values of a quantity (in `unit`) at the given times (s); its panel shows at least `min_range`."""
 
     name: str
     unit: str
-    least_range: float
+    min_range: float
     times: np.ndarray
     values: np.ndarray
 
@@ -78,10 +78,16 @@ def draw_panels(
 
 def _draw(panel: Axes, curve: Curve, seconds: float) -> None:
     panel.axhline(0, color=GREY, linewidth=0.8)
-    panel.plot(curve.times, curve.values, ".-" if len(curve.times) <= FEW else "-", color=BLUE, linewidth=1.5)
+    panel.plot(
+        curve.times,
+        curve.values,
+        ".-" if len(curve.times) <= MAX_DRAWN_POINTS else "-",
+        color=BLUE,
+        linewidth=1.5,
+    )
     panel.set_xlim(0, seconds)
     low, high = panel.get_ylim()
-    missing = max(0.0, curve.least_range - (high - low)) / 2
+    missing = max(0.0, curve.min_range - (high - low)) / 2
     panel.set_ylim(low - missing, high + missing)
     panel.set_ylabel(f"{curve.name}, {curve.unit}")
 

@@ -8,7 +8,7 @@ from humanoid_interfaces.action import WalkTo
 from lab.client.goals import Goal, send_goal
 from lab.client.outcomes import Outcome
 from lab.client.topics import mode, pose
-from lab.client.waiting import comes_true, wait_until
+from lab.client.waiting import becomes_true, wait_until
 from lab.errors import NoRobotError, NotInTimeError
 from lab.learning.gap import Gap, expect, not_yet
 from lab.learning.gap_check_helpers import last_error
@@ -39,8 +39,8 @@ def _cancel_in_mid_step(server: StudentNode, feedback_count: int) -> int:
     goal = _send(server, 170)
     _wait_for_steps(server, goal, feedback_count)
     goal.cancel()
-    comes_true(lambda: goal.status in TERMINAL_STATUSES or not server.is_running, CANCEL_TIMEOUT)
-    stands = comes_true(lambda: mode() == "STANDING", MODE_DELAY)
+    becomes_true(lambda: goal.status in TERMINAL_STATUSES or not server.is_running, CANCEL_TIMEOUT)
+    stands = becomes_true(lambda: mode() == "STANDING", MODE_DELAY)
     if server.is_running and goal.status not in TERMINAL_STATUSES:
         raise not_yet(
             f"{CANCEL_TIMEOUT:g} s after the cancel the goal is still {goal.status}",
@@ -81,7 +81,7 @@ def a_bug_ends_aborted() -> str:
         next="fill the result first, then make the terminal call, because that call decides the status",
     )
     sound = _outcome(server, _send(server, 20), TURN_TIMEOUT)
-    stands = comes_true(lambda: mode() == "STANDING", MODE_DELAY)
+    stands = becomes_true(lambda: mode() == "STANDING", MODE_DELAY)
     expect(
         sound.status == "SUCCEEDED",
         seen=f"the goal of 20° ended {sound.status}{_complaint(server)}",
@@ -110,7 +110,7 @@ def the_newest_goal_wins() -> str:
             "end the goal only if self.newest is another goal than goal_handle",
         )
     new = _send(server, -40)
-    if not comes_true(lambda: old.is_over or not server.is_running, 2.0):
+    if not becomes_true(lambda: old.is_over or not server.is_running, 2.0):
         raise not_yet(
             f"2 s after the second goal was accepted, the first one is still {old.status}",
             "ABORTED in the next round of its loop",
@@ -178,7 +178,7 @@ def _send(server: StudentNode, degrees: float) -> Goal:
         sent.append(send_goal("turn_to", WalkTo, goal))
         return sent[-1].accepted
 
-    if not comes_true(accepted, ACCEPT_TIMEOUT):
+    if not becomes_true(accepted, ACCEPT_TIMEOUT):
         raise not_yet(
             f"the server accepted no goal within {ACCEPT_TIMEOUT:g} s{_complaint(server)}",
             "an accepted goal",
@@ -206,7 +206,7 @@ def _outcome(server: StudentNode, goal: Goal, seconds: float) -> Outcome:
 
     Raises GapError if it has not ended in time, or if the node exited before it sent the result.
     """
-    comes_true(lambda: goal.is_over or not server.is_running, seconds)
+    becomes_true(lambda: goal.is_over or not server.is_running, seconds)
     if goal.is_over:
         return goal.result(show_feedback=False)
     if server.is_running:

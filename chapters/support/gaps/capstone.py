@@ -10,7 +10,7 @@ from chapters.support import harness
 from humanoid_interfaces.action import WalkTo
 from lab.client.goals import Goal, send_goal
 from lab.client.outcomes import Outcome
-from lab.client.waiting import comes_true
+from lab.client.waiting import becomes_true
 from lab.learning.gap import Gap, expect, not_yet
 from lab.learning.gap_check_helpers import last_error, read_program, run_student_code
 from lab.running.student_nodes import StudentNode, run_node, stop_nodes
@@ -36,11 +36,11 @@ def waits_for_the_end_of_its_child() -> str:
     seen = len(_events(legs))
     cancelled_at = time.monotonic()
     goal.cancel()
-    has_reacted = comes_true(
+    has_reacted = becomes_true(
         lambda: _has_reported(legs, seen, "cancel") or goal.is_over or not parent.is_running,
         FORWARDED_CANCEL_TIMEOUT,
     )
-    if not comes_true(lambda: _has_reported(legs, seen, "cancel"), REPORT_DELAY):
+    if not becomes_true(lambda: _has_reported(legs, seen, "cancel"), REPORT_DELAY):
         raise not_yet(
             f"the errand ended {_status(goal)}, but its child is still active: go_ahead received no cancel request"
             if has_reacted
@@ -49,7 +49,7 @@ def waits_for_the_end_of_its_child() -> str:
             "a cancel request to go_ahead as soon as the errand is cancelled",
             "check self.should_stop(goal_handle) in every round, and call child.cancel_goal_async() when it is true",
         )
-    comes_true(lambda: goal.is_over or not parent.is_running, CHILD_CANCEL_DURATION + END_TIMEOUT)
+    becomes_true(lambda: goal.is_over or not parent.is_running, CHILD_CANCEL_DURATION + END_TIMEOUT)
     if goal.is_over and not _has_ended(legs, seen):
         raise not_yet(
             f"the errand ended {_status(goal)} before its child had ended{_complaint(parent)}",
@@ -83,7 +83,7 @@ def waits_for_the_end_of_its_child() -> str:
 def _require_success(parent: StudentNode, legs: StudentNode) -> None:
     """Require that an errand succeeds if it is not cancelled."""
     goal = _under_way(parent, 1.5)
-    comes_true(lambda: goal.is_over or not parent.is_running, 1.5 + END_TIMEOUT)
+    becomes_true(lambda: goal.is_over or not parent.is_running, 1.5 + END_TIMEOUT)
     if not goal.is_over:
         raise not_yet(
             f"the errand was not cancelled and its child has ended, but the errand is still {goal.status}"
@@ -143,11 +143,11 @@ def _require_cancel_of_a_silent_child() -> str:
     """
     parent, legs = _start("patient_errand.py", "silent")
     goal = _under_way(parent, LONG_WORK_TIME)
-    comes_true(
+    becomes_true(
         lambda: _has_reported(legs, 0, "cancel") or goal.is_over or not parent.is_running,
         PATIENCE + FORWARDED_CANCEL_TIMEOUT + 2.0,
     )
-    if not comes_true(lambda: _has_reported(legs, 0, "cancel"), REPORT_DELAY):
+    if not becomes_true(lambda: _has_reported(legs, 0, "cancel"), REPORT_DELAY):
         raise not_yet(
             f"the child stopped giving feedback; the errand ended {_status(goal)} without a cancel request to the child"
             f"{_complaint(parent)}"
@@ -229,7 +229,7 @@ def _under_way(parent: StudentNode, seconds: float) -> Goal:
     goal.target_pose.pose.position.x = float(seconds)
     for _ in range(MAX_ERRANDS):
         sent = send_goal("errand", WalkTo, goal)
-        comes_true(partial(_has_begun_or_ended, sent, parent), FIRST_FEEDBACK_TIMEOUT)
+        becomes_true(partial(_has_begun_or_ended, sent, parent), FIRST_FEEDBACK_TIMEOUT)
         if sent.feedback and not sent.is_over:
             return sent
         if not (sent.is_over and NO_RESPONSE in sent.result(show_feedback=False).result.error_msg):
@@ -253,7 +253,7 @@ def _has_begun_or_ended(goal: Goal, parent: StudentNode) -> bool:
 
 
 def _end_of(goal: Goal, parent: StudentNode, seconds: float, situation: str) -> Outcome:
-    comes_true(lambda: goal.is_over or not parent.is_running, seconds)
+    becomes_true(lambda: goal.is_over or not parent.is_running, seconds)
     if goal.is_over:
         return goal.result(show_feedback=False)
     raise not_yet(
@@ -276,7 +276,7 @@ def _has_reported(legs: StudentNode, since: int, what: str) -> bool:
 
 def _has_ended(legs: StudentNode, since: int) -> bool:
     """Whether the cancelled child has ended; waits a moment for its report."""
-    return comes_true(lambda: _has_reported(legs, since, "CANCELED"), CHILD_CANCEL_DURATION / 2)
+    return becomes_true(lambda: _has_reported(legs, since, "CANCELED"), CHILD_CANCEL_DURATION / 2)
 
 
 def _status(goal: Goal) -> str:

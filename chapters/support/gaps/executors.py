@@ -15,7 +15,7 @@ from std_srvs.srv import Trigger
 from chapters.support import harness
 from lab.client.connection import connection
 from lab.client.services import call
-from lab.client.waiting import comes_true
+from lab.client.waiting import becomes_true
 from lab.errors import NoAnswerError, NoServerError
 from lab.learning.gap import Gap, expect, not_yet
 from lab.learning.gap_check_helpers import last_error_or_line
@@ -73,7 +73,7 @@ def reports_or_says_why_not() -> str:
     _expect_refusal(node, "no server offers where_am_i")
     responds = "where_am_i responds"
     with _where_am_i():
-        if not comes_true(lambda: _report(node, responds).success, DISCOVERY_TIMEOUT):
+        if not becomes_true(lambda: _report(node, responds).success, DISCOVERY_TIMEOUT):
             raise not_yet(
                 f"the report has success=False although {responds}",
                 f"success=True and the position {POSITION!r}",
@@ -94,7 +94,7 @@ def reports_or_says_why_not() -> str:
         return "ignored" in silent.log()
 
     expect(
-        comes_true(has_been_ignored, DISCOVERY_TIMEOUT),
+        becomes_true(has_been_ignored, DISCOVERY_TIMEOUT),
         seen="where_am_i received no request",
         expected="a request to where_am_i for each report",
         next="send the request with self.client.call_async(Trigger.Request())",
@@ -129,7 +129,7 @@ def _look_around(node: StudentNode) -> tuple[float, float]:
     )
     try:
         if (
-            not comes_true(lambda: len(beats) > 3 or not node.is_running, FIRST_BEATS_TIMEOUT)
+            not becomes_true(lambda: len(beats) > 3 or not node.is_running, FIRST_BEATS_TIMEOUT)
             or not node.is_running
         ):
             raise not_yet(
@@ -144,14 +144,14 @@ def _look_around(node: StudentNode) -> tuple[float, float]:
             raise _no_answer(node) from None
         took = time.monotonic() - called_at
         seen = len(beats)
-        comes_true(lambda: len(beats) > seen + 1, LOOK_DURATION)  # a gap ends with the next heartbeat
+        becomes_true(lambda: len(beats) > seen + 1, LOOK_DURATION)  # a gap ends with the next heartbeat
     finally:
         connection().node.destroy_subscription(subscription)
     return max(later - earlier for earlier, later in pairwise(beats)), took
 
 
 def _no_answer(node: StudentNode) -> Exception:
-    ended = comes_true(lambda: not node.is_running, EXIT_TIMEOUT)
+    ended = becomes_true(lambda: not node.is_running, EXIT_TIMEOUT)
     complaint = _complaint(node) if ended else ""
     advice = (
         "await an rclpy Future: asyncio's event loop doesn't run here"
@@ -179,7 +179,7 @@ def _report(node: StudentNode, situation: str) -> Any:
         return call("report", Trigger, timeout=REPORT_TIMEOUT)
     except (NoAnswerError, NoServerError):
         pass
-    if comes_true(lambda: not node.is_running, EXIT_TIMEOUT):
+    if becomes_true(lambda: not node.is_running, EXIT_TIMEOUT):
         raise not_yet(
             f"the service report did not respond{_complaint(node)}",
             "a report",

@@ -17,7 +17,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Float64
 
 from lab.client.connection import connection
-from lab.client.waiting import comes_true
+from lab.client.waiting import becomes_true
 from lab.errors import NodeEndedError
 from lab.learning.gap import Gap, expect, not_yet
 from lab.learning.gap_check_helpers import (
@@ -129,7 +129,7 @@ def sees_every_set() -> str:
     with _radii() as radii:
         node = _start_or_explain(speed=0.1, turn=0.2)
         expect(
-            comes_true(lambda: radii, MESSAGE_TIMEOUT),
+            becomes_true(lambda: radii, MESSAGE_TIMEOUT),
             seen="no message arrived on radius after the start",
             expected="0.5 on radius, for a speed of 0.1 and a turn of 0.2",
             next="call self.apply([]) once, as the last of the four calls",
@@ -150,7 +150,7 @@ def sees_every_set() -> str:
             "add_post_set_parameters_callback",
         )
         expect(
-            comes_true(lambda: math.isclose(radii[-1], 0.1 / 0.25), MESSAGE_TIMEOUT),
+            becomes_true(lambda: math.isclose(radii[-1], 0.1 / 0.25), MESSAGE_TIMEOUT),
             seen="no new message arrived on radius after an accepted set",
             expected="0.4 on radius, for a speed of 0.1 and a turn of 0.25",
             next="register self.apply with self.add_post_set_parameters_callback()",

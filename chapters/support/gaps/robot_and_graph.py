@@ -14,7 +14,7 @@ from lab.client.connection import NAMESPACE
 from lab.client.graph import topics_in_graph
 from lab.client.services import call
 from lab.client.topics import mode, pose
-from lab.client.waiting import comes_true
+from lab.client.waiting import becomes_true
 from lab.errors import NodeEndedError
 from lab.learning.gap import Gap, expect, not_yet
 from lab.learning.gap_check_helpers import last_error_or_line
@@ -36,7 +36,7 @@ def receives_five_topics() -> str:
             "depth settings are required": "give the profile a depth: QoSProfile(depth=10, …)",
         },
     )
-    comes_true(lambda: "received:" in node.log() or not node.is_running, 10.0)
+    becomes_true(lambda: "received:" in node.log() or not node.is_running, 10.0)
     _require_running(node, {})
     received = _received_topics(node.log())
     silent = ", ".join(sorted(TOPICS - received))
@@ -54,7 +54,7 @@ def knows_the_mode_at_once() -> str:
     _ensure_standing()
     with _paused_simulation():
         node = _start("robot_mode.py", {"on_state() missing": "pass the callback itself: self.on_state"})
-        comes_true(lambda: _printed_state(node) or not node.is_running, 5.0)
+        becomes_true(lambda: _printed_state(node) or not node.is_running, 5.0)
         _require_running(node, {})
         if not _printed_state(node):
             raise _why_no_state(node)
@@ -67,7 +67,7 @@ def walks_one_metre() -> str:
     with _paused_simulation():
         hints = {"NoneType": "return from on_timer as long as self.start is None"}
         node = _start("one_metre.py", hints)
-        comes_true(lambda: not node.is_running, 1.0)
+        becomes_true(lambda: not node.is_running, 1.0)
         _require_running(node, hints)
     before = pose()
 
@@ -77,8 +77,8 @@ def walks_one_metre() -> str:
         return (now.x - before.x) * math.cos(before.yaw) + (now.y - before.y) * math.sin(before.yaw)
 
     began = time.monotonic()
-    comes_true(lambda: mode() == "WALKING" or not node.is_running, 5.0)
-    comes_true(lambda: mode() != "WALKING" or walked() > ACCEPTED_DISTANCES[1] or not node.is_running, 20.0)
+    becomes_true(lambda: mode() == "WALKING" or not node.is_running, 5.0)
+    becomes_true(lambda: mode() != "WALKING" or walked() > ACCEPTED_DISTANCES[1] or not node.is_running, 20.0)
     _require_running(
         node, {"must be of type 'float'": "a float64 field needs a float: 0.3, not an int", **hints}
     )
@@ -195,7 +195,7 @@ def _ensure_standing() -> None:
     robot_process()
     if mode() in ("FALLEN", "OFF"):
         restart_robot()
-    comes_true(lambda: mode() == "STANDING", 5.0)
+    becomes_true(lambda: mode() == "STANDING", 5.0)
 
 
 @contextmanager

@@ -10,7 +10,7 @@ from std_srvs.srv import SetBool, Trigger
 
 from humanoid_interfaces.srv import GetBatteryStatus
 from lab.client.commands import publish
-from lab.client.waiting import comes_true
+from lab.client.waiting import becomes_true
 from lab.learning.gap import Gap, expect
 from lab.learning.gap_check_helpers import call_student_service, read_program, run_student_code
 from lab.running.robot import start_robot, stop_robot
@@ -81,7 +81,7 @@ def refuses_an_impossible_start() -> str:
         )
         _require_stop(server, "before the first robot_state")
         start_robot()
-        accepts = comes_true(lambda: _march(server, True).success, ROBOT_STATE_TIMEOUT)
+        accepts = becomes_true(lambda: _march(server, True).success, ROBOT_STATE_TIMEOUT)
         expect(
             accepts,
             seen="success=False for a start although robot_state has motors_enabled true",
@@ -89,7 +89,7 @@ def refuses_an_impossible_start() -> str:
             next="refuse a start only if `not self.state.motors_enabled`",
         )
         publish("motor_power", Bool(data=False))
-        comes_true(lambda: not _march(server, True).success, ROBOT_STATE_TIMEOUT)
+        becomes_true(lambda: not _march(server, True).success, ROBOT_STATE_TIMEOUT)
         off = _refused_start(
             server,
             "while the motors are off",

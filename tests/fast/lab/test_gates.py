@@ -32,7 +32,9 @@ AWAIT = """
 
 
 def node(log: str, ended: float = 105.0) -> Any:
-    return SimpleNamespace(log=lambda: log, file=Path("scout.py"), life=lambda: SimpleNamespace(ended=ended))
+    return SimpleNamespace(
+        log=lambda: log, file=Path("scout.py"), history=lambda: SimpleNamespace(ended=ended)
+    )
 
 
 def said(log: str, groups: dict[str, str], threads: int, moment: float | None = None) -> str:

@@ -48,7 +48,7 @@ def test_programs_beside_the_notebook_are_kept_named_and_not_used(
     lab.keep_programs_in("programs/02_services")
     assert capsys.readouterr().out == (
         "The programs of this notebook are in programs/02_services\n"
-        "Others are beside the notebook, which doesn't use them: a.py, b.py, c.py, …\n"
+        "These programs beside the notebook are no longer used: a.py, b.py, c.py, …\n"
     )
     with pytest.raises(lab.LabError, match=r"there is no file a\.py in .*02_services; run the cell"):
         lab.run_program("a.py")

@@ -69,11 +69,13 @@ def test_a_plot_has_a_panel_for_each_quantity_and_a_label_for_each_moment(stage:
     stage.be(RobotState.WALKING, at=-0.1)
     for twentieth in range(40):
         stage.walk(twentieth / 20, speed=0.3 if twentieth < 25 else 0.0)
-    stage.recording.note(CancelSent(t=1001.0, cancel="cancel 1", goal="turn_to 1", by="notebook"))
-    stage.recording.note(CancelAnswered(t=1001.01, cancel="cancel 1", return_code=0, canceling=["turn_to 1"]))
-    stage.recording.note(FeedbackReceived(t=1001.1, goal="turn_to 1", feedback=None))
+    stage.recording.add_event(CancelSent(t=1001.0, cancel="cancel 1", goal="turn_to 1", by="notebook"))
+    stage.recording.add_event(
+        CancelAnswered(t=1001.01, cancel="cancel 1", return_code=0, canceling=["turn_to 1"])
+    )
+    stage.recording.add_event(FeedbackReceived(t=1001.1, goal="turn_to 1", feedback=None))
     stage.be(RobotState.STANDING, at=1.25)
-    stage.recording.note(ResultReceived(t=1001.5, goal="turn_to 1", status=5, result=None))
+    stage.recording.add_event(ResultReceived(t=1001.5, goal="turn_to 1", status=5, result=None))
     drawing = read(stage.end(2.0).plot("speed", "height", title="A cancel"))
 
     labels = ["cancel requested", "cancel accepted", "WALKING → STANDING", "result: CANCELED"]
@@ -120,7 +122,7 @@ def test_a_curve_to_compare_with_is_named_and_does_not_stretch_the_panel(stage: 
 def test_the_time_between_two_moments_is_coloured_and_measured(stage: Stage) -> None:
     stage.be(RobotState.WALKING, at=-0.1)
     stage.walk(0.5)
-    stage.recording.note(ResultReceived(t=1000.6, goal="turn_to 1", status=5, result=None))
+    stage.recording.add_event(ResultReceived(t=1000.6, goal="turn_to 1", status=5, result=None))
     stage.be(RobotState.STANDING, at=1.35)
     recording = stage.end(2.0)
     drawing = read(recording.plot("speed", between={"keep away": ("result: CANCELED", "STANDING")}))
