@@ -1,4 +1,4 @@
-"""Recorded walks to a goal, filmed beside each other, with the goals' statuses and capture points."""
+"""Films recorded walks to a goal beside each other, with the goals' statuses and capture points."""
 
 from __future__ import annotations
 
@@ -26,20 +26,21 @@ from robot_sim.views.view import View
 from ros_runtime.message_constants import RobotMode, name_of
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
-WIDTH, HEIGHT, ABOVE, BELOW = 330, 330, 30, 66  # px: of a picture, and of the texts above and below it
+WIDTH, HEIGHT, ABOVE, BELOW = 330, 330, 30, 66  # px, of a picture, and for the texts above and below it
 LEGEND, DOT_RADIUS = 26, 6  # px
-LEAD_TIME = 0.4  # s before the goal is sent
+LEAD_TIME = 0.4  # s of the film before the goal is sent
 GRAVITY = 9.81  # m/s²
 STATUS_COLOURS = {"SUCCEEDED": "#007A5E", "ABORTED": VERMILION, "CANCELED": VERMILION}
 
 
 def film_beside(recordings: Mapping[str, Recording], *, camera: str = "side") -> HTML:
-    """Film recorded walks to a goal beside each other, from the moment when each goal was sent.
+    """Film recorded walks to a goal beside each other, each from the moment when its goal was sent.
 
         lab.film_beside({"at once": one, "after settling": other})
 
     Each picture shows the goal's status and the robot's mode. Two dots on the floor show the goal and the *capture
-    point*, above which the pelvis could come to rest. Without OpenGL you get the words of the film and the reason.
+    point*, above which the pelvis could come to rest. Without OpenGL you get a description of the film and the reason
+    why there is none.
 
     Raises:
         LabError: a recording has no goal with a pose.
@@ -63,7 +64,7 @@ def film_beside(recordings: Mapping[str, Recording], *, camera: str = "side") ->
 
 @dataclass(frozen=True)
 class _Walk:
-    """A recorded walk to a place; times are in s of its recording."""
+    """A recorded walk to a place (x, y in frame odom); times are in s since its recording began."""
 
     name: str
     recording: Recording
@@ -78,7 +79,7 @@ class _Walk:
         base = min(odometry, key=lambda pair: abs(pair[0] - goal.sent))[1].pose.pose
         place = goal.place(base)
         if place is None:
-            raise LabError(f"{name}: the goal has no pose, so there is no place to film the way to")
+            raise LabError(f"{name}: the goal's message has no pose, so there is no walk to a place to film")
         return cls(name, recording, goal, place, (base.position.x, base.position.y))
 
     @property
@@ -90,7 +91,7 @@ class _Walk:
         return self.recording.seconds - self.begin
 
     def frames(self, after: np.ndarray, camera: str) -> list[Image.Image]:
-        """A picture for each time (s) after the beginning; the last one stays when the recording is over."""
+        """Return a picture for each time (s) after the beginning; after the recording's end, repeat the last one."""
         at = np.minimum(self.begin + after, self.recording.seconds)
         body = Humanoid(topics.scene())
         view = View(body, WIDTH, HEIGHT, shadows=False)
@@ -103,7 +104,7 @@ class _Walk:
             view.close()
 
     def capture_point(self, t: float) -> tuple[float, float]:
-        """Where on the floor the pelvis could come to rest, (x, y) in frame odom."""
+        """Return the point on the floor above which the pelvis could come to rest, (x, y) in frame odom."""
         x, y, height, forwards, heading = (
             float(np.interp(t, *self.recording.values(quantity)))
             for quantity in ("x", "y", "height", "speed", "heading")
@@ -112,7 +113,7 @@ class _Walk:
         return x + ahead * math.cos(heading), y + ahead * math.sin(heading)
 
     def past_the_goal(self, t: float) -> float:
-        """How far (m) the pelvis is past the goal, in the direction from the start to it; negative before it."""
+        """Return how far (m) the pelvis is past the goal, along the line from the start; negative before the goal."""
         x, y = (float(np.interp(t, *self.recording.values(quantity))) for quantity in ("x", "y"))
         way = math.dist(self.start, self.place)
         return (
@@ -168,7 +169,7 @@ def _beside(pictures: tuple[Image.Image, ...]) -> Image.Image:
     for number, picture in enumerate(pictures):
         image.paste(picture, (number * (WIDTH + 8), 0))
     draw, x, y = ImageDraw.Draw(image), 8, pictures[0].height
-    for colour, text in ((BLUE, "goal"), (VERMILION, "capture point: there the pelvis could come to rest")):
+    for colour, text in ((BLUE, "goal"), (VERMILION, "capture point: where the pelvis could come to rest")):
         draw.ellipse((x, y + 6, x + 10, y + 16), fill=colour)
         draw.text((x + 16, y + 2), text, font=font(13), fill="black")
         x += 36 + round(draw.textlength(text, font=font(13)))

@@ -1,4 +1,4 @@
-"""A recorded trip to a point, seen from above: path, phases, bearing and what happened on the way."""
+"""Films a recorded walk to a point from above, with path, phases, bearing, and the moments that were marked."""
 
 from __future__ import annotations
 
@@ -25,24 +25,24 @@ from ros_runtime.angles import wrap
 
 WIDTH = 600  # px
 MIN_HEIGHT, MAX_HEIGHT = 150, 420  # px, of the floor
-ABOVE, BELOW = 62, 30  # px, of the texts
-OVERSAMPLING = 2  # times as fine is it drawn, for smooth lines
-MARGIN = 0.4  # m of floor around everything
-WEDGE_RADIUS = 0.45  # m, the radius of the bearing's wedge
-FLASH_DURATION, LABEL_DURATION = 0.8, 2.5  # s that a moment flashes, and that its label stays
+ABOVE, BELOW = 62, 30  # px, for the texts above and below the floor
+OVERSAMPLING = 2  # the floor is drawn at this multiple of its size and scaled down, for smooth lines
+MARGIN = 0.4  # m of floor around the path and the goal
+WEDGE_RADIUS = 0.45  # m, of the wedge that shows the bearing
+FLASH_DURATION, LABEL_DURATION = 0.8, 2.5  # s, of a mark
 COLOURS = (BLUE, VERMILION, "#007A5E", "#8A4F7D", GREY)
-BODY = ((0.14, 0.0), (0.04, 0.16), (-0.08, 0.16), (-0.08, -0.16), (0.04, -0.16))  # m, its nose first
+BODY = ((0.14, 0.0), (0.04, 0.16), (-0.08, 0.16), (-0.08, -0.16), (0.04, -0.16))  # m, from its front
 
 
 def film_from_above(recording: Recording, *, reach: float = 0.0, title: str = "The trip from above") -> HTML:
-    """Film the way to the last goal of a recording, as seen from above.
+    """Film the walk to the last goal of a recording from above.
 
-    The path has the colour of the goal's phase, which is the `status` of its feedback. The wedge at the robot is the
-    bearing, from where it looks to where the goal is; the circle around the goal has the radius `reach`, in m. What the
-    notebook did, marked with `recording.mark()`, flashes.
+    The colour of the path shows the goal's phase, which is `status` in its feedback. A wedge at the robot shows the
+    bearing, the angle from the robot's heading to the goal. A circle around the goal has the radius `reach`, in m.
+    Moments that were marked with `recording.mark()` flash.
 
     Raises:
-        LabError: there is no goal with a pose and feedback with a `status`.
+        LabError: the recording has no goal with a pose whose feedback has a `status`.
         ValueError: the film would last longer than 60 s.
     """
     if recording.seconds > MAX_DURATION:
@@ -57,7 +57,7 @@ def film_from_above(recording: Recording, *, reach: float = 0.0, title: str = "T
 
 @dataclass(frozen=True)
 class _Trip:
-    """The recorded quantities at the times of the frames (s), and the goal's phases and events."""
+    """The recorded positions and headings at the times of the frames (s), the goal and the marks."""
 
     at: np.ndarray
     xs: np.ndarray
@@ -74,7 +74,7 @@ class _Trip:
         place = goal.place(base)
         if place is None or not any(hasattr(message, "status") for _, message in goal.feedback):
             raise LabError(
-                "the last goal has no pose, or no feedback with a `status`, so there is no trip to film"
+                "there is no walk to film: the last goal has no pose, or its feedback has no `status`"
             )
         at = np.arange(max(1, round(recording.seconds * RATE))) / RATE
         xs, ys, headings = (np.interp(at, *recording.values(name)) for name in ("x", "y", "heading"))
@@ -82,7 +82,7 @@ class _Trip:
 
     @property
     def phases(self) -> list[tuple[float, str]]:
-        """When each phase began, and its name."""
+        """The beginning (s) and the name of each phase."""
         statuses = [(t, feedback.status) for t, feedback in self.goal.feedback]
         return [statuses[0], *(later for earlier, later in pairwise(statuses) if earlier[1] != later[1])]
 
@@ -98,7 +98,7 @@ class _Trip:
         return math.dist((self.xs[frame], self.ys[frame]), self.place)
 
     def bearing(self, frame: int) -> float:
-        """From where the robot looks to where the goal is, rad; to the left is positive."""
+        """Return the angle from the robot's heading to the goal, in rad; to the left is positive."""
         direction = math.atan2(self.place[1] - self.ys[frame], self.place[0] - self.xs[frame])
         return wrap(direction - self.headings[frame])
 
@@ -113,13 +113,13 @@ class _Trip:
 
 @dataclass(frozen=True)
 class _Floor:
-    """The part of the floor that is seen: its left upper corner (m, frame odom) and its scale."""
+    """The visible part of the floor: its left upper corner (m, frame odom) and its scale."""
 
     left: float
     upper: float
-    scale: float  # px of the drawing for a metre
+    scale: float  # px of the drawing per metre
     height: int  # px of the drawing
-    reach: float  # m
+    reach: float  # m, the radius of the circle around the goal
 
     @classmethod
     def around(cls, trip: _Trip, reach: float) -> _Floor:
@@ -146,7 +146,7 @@ class _Floor:
         return shown
 
     def _empty(self, trip: _Trip) -> Image.Image:
-        """The floor with a line each half metre, the goal and its circle."""
+        """Draw the floor with a line every half metre, the goal and its circle."""
         paper = Image.new("RGB", (WIDTH * OVERSAMPLING, self.height), "#f7f7f7")
         draw = ImageDraw.Draw(paper)
         for metre in np.arange(math.floor(self.left), self.left + paper.width / self.scale, 0.5):

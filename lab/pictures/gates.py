@@ -1,4 +1,4 @@
-"""The two gates of an executor at any moment of a run: is the callback's group free, and is a thread free?"""
+"""Draws what a callback waits for at any moment of a run: a free callback group, and then a free thread."""
 
 from __future__ import annotations
 
@@ -27,20 +27,25 @@ FREE_COLOUR = "#007A5E"
 def draw_gates(
     node: StudentNode, groups: Mapping[str, str], *, threads: int, title: str = "The two gates"
 ) -> ipywidgets.VBox:
-    """Draw the threads of a node as `draw_threads` does, and a slider that shows both gates at a moment of the run.
+    """Draw the threads of a node like `draw_threads`, with a slider that shows both gates at a moment of the run.
 
         lab.draw_gates(node, {"beat": "default group", "look_around": "default group"}, threads=4)
 
-    `groups` says in which mutually exclusive group each callback is. The slider begins in the middle of the longest
-    callback.
+    A callback passes two gates before it runs: its group and a thread must be free. `groups` maps each callback to its
+    mutually exclusive group. The slider begins in the middle of the longest callback.
 
-    Raises LabError when the node has printed no line for `draw_threads`, or one of a callback that has no group.
+    Raises LabError when the node has printed no line for `draw_threads`, or one of a callback that is not in `groups`.
     """
     steps = read_steps(node.log())
     missing = sorted({step.callback for step in steps} - groups.keys())
     if not steps or missing:
         raise LabError(
-            f"{node.file.name}: " + (f"say the group of {', '.join(missing)}" if steps else "no steps")
+            f"{node.file.name}: "
+            + (
+                f"`groups` has no group for {', '.join(missing)}"
+                if steps
+                else "the node has printed no lines about its callbacks; let it run for a moment"
+            )
         )
     zero = steps[0].time
     spans = [
@@ -70,7 +75,7 @@ class _Gates:
     moment: float
 
     def inside(self, group: str) -> str | None:
-        """The callback that keeps a group, because it runs or awaits; None if the group is free."""
+        """Return the callback that occupies a group because it runs or awaits; None if the group is free."""
         now = (span.callback for span in self._now() if self.groups[span.callback] == group)
         return next(now, None)
 

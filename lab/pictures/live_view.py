@@ -1,4 +1,4 @@
-"""A live view of the robot in the notebook."""
+"""Shows a live view of the robot in the notebook."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from robot_sim.humanoid import Humanoid
 from robot_sim.views.view import View
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
-MAX_FRAME_RATE = 12.0  # a second, at most
-MAX_DRAWING_SHARE = 0.4  # highest share of time spent drawing, so that the notebook gets the rest
+MAX_FRAME_RATE = 12.0  # Hz
+MAX_DRAWING_SHARE = 0.4  # of the time; the rest is left for the notebook's other threads
 FIRST_FRAME_TIMEOUT = 20.0  # s
 
 _running: _LiveView | None = None
 
 
 def watch_robot(camera: str = "track") -> ipywidgets.Image | ipywidgets.Label:
-    """Show a live view of the robot below this cell until `stop_watching()`; a call in another cell moves it there.
+    """Show a live view of the robot below this cell until `stop_watching()`, or until another cell calls this.
 
-    It is drawn in the notebook's process from the robot's own messages, so watching does not slow the robot down.
+    The view is drawn in the notebook's process from the robot's own messages, so it does not slow the robot down.
     `camera` is "track", "side" or "front". Without OpenGL you get a text that says why there is no picture.
 
     Raises:
@@ -46,7 +46,7 @@ def watch_robot(camera: str = "track") -> ipywidgets.Image | ipywidgets.Label:
 
 
 def stop_watching() -> None:
-    """End the live view; its last frame stays."""
+    """Stop the live view; its last frame stays visible."""
     global _running
     if _running is not None:
         _running.end()
@@ -54,7 +54,7 @@ def stop_watching() -> None:
 
 
 class _LiveView:
-    """A widget and the thread that draws into it: an OpenGL context belongs to one thread."""
+    """A widget, and the thread that draws into it; one thread does all drawing, because OpenGL requires that."""
 
     def __init__(self, camera: str) -> None:
         self.widget = ipywidgets.Image(format="jpeg", width=WIDTH, height=HEIGHT)
@@ -65,7 +65,7 @@ class _LiveView:
         self._thread = threading.Thread(target=self._draw_until_stopped, name="live view", daemon=True)
 
     def begin(self) -> None:
-        """Wait for the first frame; raises the error that prevented it."""
+        """Start the thread and wait for the first frame; raise the error that prevented it."""
         self._thread.start()
         if not self._begun.wait(FIRST_FRAME_TIMEOUT):
             self._problem = NoOpenGLError(f"nothing was drawn within {FIRST_FRAME_TIMEOUT:g} s")
@@ -96,7 +96,7 @@ class _LiveView:
             try:
                 set_current_posture(body)
                 self.widget.value = _jpeg(view.picture(self._camera))
-            except NoRobotError:  # the robot may come back
+            except NoRobotError:  # the robot may be started again
                 pass
             except ValueError as error:
                 self._problem = error

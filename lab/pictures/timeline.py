@@ -1,4 +1,4 @@
-"""Processes on one time axis, each with the lines that it printed."""
+"""Draws processes on one time axis, each with the lines that it has printed."""
 
 from __future__ import annotations
 
@@ -21,23 +21,23 @@ from ros_runtime.drawing.xml_text import shorten
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-WIDTH = 6.6  # inches, of the time axis
-BAR, SPACE = 0.16, 0.16  # inches: height of a process, and below it
+WIDTH = 6.6  # inches, the length of the time axis
+BAR, SPACE = 0.16, 0.16  # inches, the height of a process's bar, and of the space below it
 LABEL_LENGTH = 48  # characters
-BURST_GAP = 0.05  # s, at most, between two lines of one burst; a long burst is shortened
-TIME = "s since the first of them began (system clock)"
+MAX_BURST_GAP = 0.05  # s between two lines of one burst; a long burst is shortened
+TIME = "s since the first process began (system clock)"
 
 
 def draw_timeline(*processes: StudentNode | Program, title: str = "Who did what when") -> HTML:
-    """Draw nodes and programs as bars from their beginning to their end, each with the lines it printed.
+    """Draw nodes and programs as bars from their start to their end, each with the lines that it has printed.
 
-    A line has the time at which the notebook received it, some milliseconds after it was printed. Of a burst of lines
-    the first and the last are shown.
+    The time of a line is when the notebook received it, a few milliseconds after it was printed. If many lines arrive
+    at once, only the first and the last one are shown.
 
     Raises LabError when no process is given.
     """
     if not processes:
-        raise LabError("say which processes to draw, for example lab.draw_timeline(server, client)")
+        raise LabError("name the processes to draw, for example lab.draw_timeline(server, client)")
     histories = _with_unique_names([process.history() for process in processes])
     zero, now = min(history.began for history in histories), time.monotonic()
     end = max(history.ended or now for history in histories) - zero
@@ -66,7 +66,7 @@ def draw_timeline(*processes: StudentNode | Program, title: str = "Who did what 
 
 
 def _with_unique_names(histories: Sequence[ProcessHistory]) -> list[ProcessHistory]:
-    """The histories, with numbers appended to names that occur more than once."""
+    """Return the histories, with a number appended to each name that occurs more than once."""
     counts, seen = Counter(history.name for history in histories), Counter[str]()
     named = []
     for history in histories:
@@ -77,10 +77,10 @@ def _with_unique_names(histories: Sequence[ProcessHistory]) -> list[ProcessHisto
 
 
 def _flags(history: ProcessHistory, zero: float) -> list[Mark]:
-    """The labels of a history: its printed lines and its end."""
+    """Return the labels of a process: its printed lines and its end."""
     bursts: list[list[Mark]] = []
     for line in history.lines:
-        if bursts and line.time - bursts[-1][-1].time < BURST_GAP:
+        if bursts and line.time - bursts[-1][-1].time < MAX_BURST_GAP:
             bursts[-1].append(line)
         else:
             bursts.append([line])

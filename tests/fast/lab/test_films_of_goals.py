@@ -143,5 +143,5 @@ def test_the_phase_has_its_colour_and_the_push_flashes(stage: Stage) -> None:
 
 def test_feedback_without_a_phase_is_no_trip(stage: Stage) -> None:
     walk_past(stage, at=1.5)
-    with pytest.raises(lab.LabError, match="no feedback with a `status`"):
+    with pytest.raises(lab.LabError, match="its feedback has no `status`"):
         lab.film_from_above(stage.recording)

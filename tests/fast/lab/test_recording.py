@@ -104,7 +104,9 @@ def test_the_time_between_two_moments_can_be_asked_for(stage: Stage) -> None:
     recording = stage.end(1.0)
     assert recording.time_of("OFF") - recording.time_of("power off") == pytest.approx(0.1)
     assert recording.time_of("WALKING → OFF") == recording.time_of("OFF")
-    with pytest.raises(LabError, match=r'there is: "power off" at 0\.40 s; "WALKING → OFF" at 0\.50 s'):
+    with pytest.raises(
+        LabError, match=r'the recorded events are: "power off" at 0\.40 s; "WALKING → OFF" at 0\.50 s'
+    ):
         recording.time_of("FALLEN")
 
 
@@ -142,7 +144,9 @@ def test_an_unknown_quantity_is_refused_with_those_that_there_are(stage: Stage) 
     stage.walk(0.5)
     recording = stage.end(1.0)
     for ask in (recording.values, recording.mean, recording.plot):
-        with pytest.raises(LabError, match=r"nothing called 'sped' .* \"speed\" \(m/s\), .*\"power\" \(W\)"):
+        with pytest.raises(
+            LabError, match=r"there is no quantity 'sped'; .* \"speed\" \(m/s\), .*\"power\" \(W\)"
+        ):
             ask("sped")
 
 
@@ -152,7 +156,7 @@ def test_an_empty_recording_says_so(stage: Stage) -> None:
     for ask in (lambda: recording.plot("speed"), lambda: recording.mean("power"), recording.film):
         with pytest.raises(LabError, match=r"was recorded: the block lasted 0\.02 s"):
             ask()
-    with pytest.raises(LabError, match="say what to plot"):
+    with pytest.raises(LabError, match="name the quantities to plot"):
         recording.plot()
 
 
@@ -171,7 +175,7 @@ def test_means_are_points_with_the_names_of_their_recordings(stage: Stage) -> No
     for text in ("a walk", "mean speed, m/s", "mean power, W", "Power against speed"):
         assert text in drawing.texts
     assert drawing.alt == "Power against speed. a walk: mean speed, m/s 0.25, mean power, W 100.00."
-    with pytest.raises(LabError, match="nothing to plot"):
+    with pytest.raises(LabError, match="no recording to plot"):
         plot_means({}, "speed", "power")
 
 
@@ -208,8 +212,8 @@ def test_a_band_shows_where_a_guess_is_near_the_truth() -> None:
     ("curves", "said"),
     [
         ({}, "0 curves"),
-        ({"a": ([], [])}, "a: 0 values for t and 0 for y"),
-        ({"a": ([1], [1, 2])}, "a: 1 values for t and 2 for y"),
+        ({"a": ([], [])}, "a has 0 values for t and 0 for y"),
+        ({"a": ([1], [1, 2])}, "a has 1 values for t and 2 for y"),
     ],
 )
 def test_curves_that_are_none_are_refused(

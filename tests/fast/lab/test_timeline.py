@@ -35,7 +35,7 @@ def test_each_process_has_a_lane_with_its_lines_and_its_end() -> None:
     drawing = read(draw_timeline(server, client, title="A retry"))
     for text in (
         *("A retry", "where_am_i.py", "ask.py", "asked", "killed", "[WARN] try 1: no answer", "at x 0.1 m"),
-        "s since the first of them began (system clock)",
+        "s since the first process began (system clock)",
     ):
         assert drawing.texts.count(text) == 1, text
     assert drawing.alt == (
@@ -62,7 +62,7 @@ def test_a_long_line_is_cut_in_the_drawing_and_whole_in_its_words() -> None:
 
 
 def test_without_a_process_there_is_nothing_to_draw() -> None:
-    with pytest.raises(LabError, match="say which processes"):
+    with pytest.raises(LabError, match="name the processes"):
         draw_timeline()
 
 
