@@ -35,13 +35,13 @@ def merges_two_plans() -> str:
         got = run_student_code(partial(merged, dict(left), dict(right), now), "merged.py")
         expect(
             isinstance(got, dict),
-            seen=f"{got!r} at {now} s",
+            seen=f"merged(left, right, {now}) returned {got!r}",
             expected=repr(wanted),
             next="end with `return` and a dict",
         )
         expect(
             _is_close(got, wanted),
-            seen=f"{got!r} at {now} s, for left {left} and right {right}",
+            seen=f"merged(left, right, {now}) returned {got!r}, for left {left} and right {right}",
             expected=repr(wanted),
             next="the times of a trajectory must rise: take the moments in order with sorted()"
             if sorted(got) != list(got)
@@ -96,7 +96,7 @@ def judges_by_both_tolerances() -> str:
         got = run_student_code(partial(program["judge"], error, left), "tolerances.py")
         expect(
             got == wanted,
-            seen=f"{got!r} for an error of {error} rad with {left} s left",
+            seen=f"judge({error}, {left}) returned {got!r}",
             expected=repr(wanted),
             next="end each path with `return` and a verdict" if got is None else reason,
         )

@@ -56,7 +56,7 @@ def _cancel_in_mid_step(server: StudentNode, feedback_count: int) -> int:
     outcome = _outcome(server, goal, 1.0)
     expect(
         outcome.status == "CANCELED",
-        seen=f"the goal ended {outcome.status}{_complaint(server)}",
+        seen=f"the goal ended {outcome.status}{_error_in_log(server)}",
         expected="CANCELED",
         next="end the goal with one call of goal_handle.canceled()",
     )
@@ -64,7 +64,7 @@ def _cancel_in_mid_step(server: StudentNode, feedback_count: int) -> int:
     return int(outcome.result.total_steps)
 
 
-def a_bug_ends_aborted() -> str:
+def fills_the_result_before_the_terminal_call() -> str:
     """Send a goal of 0°, for which filling the result raises an exception, then one of 20°."""
     server = _start("careful_turn.py")
     with_bug = _outcome(server, _send(server, 0), TURN_TIMEOUT)
@@ -84,7 +84,7 @@ def a_bug_ends_aborted() -> str:
     stands = becomes_true(lambda: mode() == "STANDING", MODE_DELAY)
     expect(
         sound.status == "SUCCEEDED",
-        seen=f"the goal of 20° ended {sound.status}{_complaint(server)}",
+        seen=f"the goal of 20° ended {sound.status}{_error_in_log(server)}",
         expected="SUCCEEDED for 20°, because no exception is raised",
         next="call goal_handle.succeed() after the result is filled, before you return it",
     )
@@ -98,14 +98,14 @@ def a_bug_ends_aborted() -> str:
     return "0° ended ABORTED, so the client sees the bug; 20° ended SUCCEEDED with a filled result"
 
 
-def the_newest_goal_wins() -> str:
+def aborts_the_older_goal() -> str:
     """Send a second goal in the middle of a turn."""
     server = _start("preemptable_turn.py")
     old = _send(server, 120)
     wait_until(lambda: len(old.feedback) > 4 or old.is_over or not server.is_running, TURN_TIMEOUT, "a turn")
     if old.is_over or not server.is_running:
         raise not_yet(
-            f"the only goal ended {_outcome(server, old, 1.0).status}{_complaint(server)}",
+            f"the only goal ended {_outcome(server, old, 1.0).status}{_error_in_log(server)}",
             "the goal stays active until a newer one is accepted",
             "end the goal only if self.newest is another goal than goal_handle",
         )
@@ -126,7 +126,7 @@ def the_newest_goal_wins() -> str:
     code = first.result.error_code
     expect(
         code == WalkTo.Result.PREEMPTED,
-        seen=f"the older goal ended ABORTED with error_code {code}{_complaint(server)}",
+        seen=f"the older goal ended ABORTED with error_code {code}{_error_in_log(server)}",
         expected=f"error_code {WalkTo.Result.PREEMPTED}, PREEMPTED",
         next='call abort() once, and return self.result(first_step, WalkTo.Result.PREEMPTED, "…"); '
         "no cancel was requested, so canceled() raises an exception",
@@ -146,7 +146,7 @@ def the_newest_goal_wins() -> str:
     second = _outcome(server, new, TURN_TIMEOUT)
     expect(
         second.status == "SUCCEEDED",
-        seen=f"the newer goal ended {second.status}{_complaint(server)}",
+        seen=f"the newer goal ended {second.status}{_error_in_log(server)}",
         expected="SUCCEEDED",
         next="end only the older goal in your branch",
     )
@@ -180,7 +180,7 @@ def _send(server: StudentNode, degrees: float) -> Goal:
 
     if not becomes_true(accepted, ACCEPT_TIMEOUT):
         raise not_yet(
-            f"the server accepted no goal within {ACCEPT_TIMEOUT:g} s{_complaint(server)}",
+            f"the server accepted no goal within {ACCEPT_TIMEOUT:g} s{_error_in_log(server)}",
             "an accepted goal",
             READ_THE_LOG,
         )
@@ -197,7 +197,7 @@ def _wait_for_steps(server: StudentNode, goal: Goal, count: int) -> None:
         wait_until(lambda: under_way() or not server.is_running, TURN_TIMEOUT)
     except NotInTimeError:
         raise not_yet(
-            f"the robot does not turn{_complaint(server)}", "a turning robot", READ_THE_LOG
+            f"the robot does not turn{_error_in_log(server)}", "a turning robot", READ_THE_LOG
         ) from None
 
 
@@ -218,7 +218,7 @@ def _outcome(server: StudentNode, goal: Goal, seconds: float) -> Outcome:
         )
         raise not_yet(f"the goal is {goal.status}, but no result has arrived", "a result", advice)
     raise not_yet(
-        f"the node has ended without sending a result{_complaint(server)}",
+        f"the node has ended without sending a result{_error_in_log(server)}",
         "a result",
         "end the path with `return result`",
     )
@@ -235,7 +235,7 @@ def _require_filled(outcome: Outcome, advice: str) -> None:
     )
 
 
-def _complaint(server: StudentNode) -> str:
+def _error_in_log(server: StudentNode) -> str:
     """Return the last error or warning in the node's log as the end of a `seen` sentence; "" if there is none."""
     log = server.log()
     problem = last_error(log, server.file.name) or (
@@ -246,6 +246,6 @@ def _complaint(server: StudentNode) -> str:
 
 GAPS = (
     Gap("cancellable_turn.py", canceled_when_the_robot_stands),
-    Gap("careful_turn.py", a_bug_ends_aborted),
-    Gap("preemptable_turn.py", the_newest_goal_wins),
+    Gap("careful_turn.py", fills_the_result_before_the_terminal_call),
+    Gap("preemptable_turn.py", aborts_the_older_goal),
 )

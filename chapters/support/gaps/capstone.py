@@ -52,20 +52,20 @@ def waits_for_the_end_of_its_child() -> str:
     becomes_true(lambda: goal.is_over or not parent.is_running, CHILD_CANCEL_DURATION + END_TIMEOUT)
     if goal.is_over and not _has_ended(legs, seen):
         raise not_yet(
-            f"the errand ended {_status(goal)} before its child had ended{_complaint(parent)}",
+            f"the errand ended {_status(goal)} before its child had ended{_error_in_log(parent)}",
             "the child ends first, then the errand",
             "keep waiting until end.done(): an accepted cancel only means that the child will try to stop",
         )
     if not goal.is_over:
         raise not_yet(
-            f"{END_TIMEOUT:g} s after the child ended, the errand is still {goal.status}{_complaint(parent)}",
+            f"{END_TIMEOUT:g} s after the child ended, the errand is still {goal.status}{_error_in_log(parent)}",
             "the errand ends soon after its child",
             "leave the loop when end.done() is true, and call nothing in the loop that waits without a limit",
         )
     outcome = goal.result(show_feedback=False)
     expect(
-        outcome.status == "CANCELED" and not _complaint(parent),
-        seen=f"the errand ended {outcome.status}{_complaint(parent)}",
+        outcome.status == "CANCELED" and not _error_in_log(parent),
+        seen=f"the errand ended {outcome.status}{_error_in_log(parent)}",
         expected="CANCELED, and no error",
         next="only wait here, then return: finish() makes the terminal call",
     )
@@ -87,7 +87,7 @@ def _require_success(parent: StudentNode, legs: StudentNode) -> None:
     if not goal.is_over:
         raise not_yet(
             f"the errand was not cancelled and its child has ended, but the errand is still {goal.status}"
-            f"{_complaint(parent)}",
+            f"{_error_in_log(parent)}",
             "SUCCEEDED",
             "leave the loop as soon as end.done() is true",
         )
@@ -100,12 +100,12 @@ def _require_success(parent: StudentNode, legs: StudentNode) -> None:
         )
     expect(
         outcome.status == "SUCCEEDED",
-        seen=f"the errand was not cancelled, but it ended {outcome.status}{_complaint(parent)}",
+        seen=f"the errand was not cancelled, but it ended {outcome.status}{_error_in_log(parent)}",
         expected="SUCCEEDED after its child has SUCCEEDED",
         next="fix the error that is named here"
-        if _complaint(parent)
+        if _error_in_log(parent)
         and "NoneType"
-        not in _complaint(parent)  # otherwise finish() was called before the child's result arrived
+        not in _error_in_log(parent)  # otherwise finish() was called before the child's result arrived
         else "return only when end.done() is true, and make no terminal call in these lines",
     )
 
@@ -130,7 +130,7 @@ def _require_patience(parent: StudentNode, legs: StudentNode) -> None:
     expect(
         outcome.status == "SUCCEEDED" and not _has_reported(legs, 0, "cancel"),
         seen=f"the child worked {SLOW_WORK_TIME:g} s and gave feedback ten times a second, "
-        f"but the errand ended {outcome.status}{_complaint(parent)}",
+        f"but the errand ended {outcome.status}{_error_in_log(parent)}",
         expected="SUCCEEDED",
         next="measure the time since the last feedback, time.monotonic() - self.heard: a long walk is no failure",
     )
@@ -150,10 +150,10 @@ def _require_cancel_of_a_silent_child() -> str:
     if not becomes_true(lambda: _has_reported(legs, 0, "cancel"), REPORT_DELAY):
         raise not_yet(
             f"the child stopped giving feedback; the errand ended {_status(goal)} without a cancel request to the child"
-            f"{_complaint(parent)}"
+            f"{_error_in_log(parent)}"
             if goal.is_over
             else f"the child has given no feedback for {PATIENCE + 2.0:g} s, but it received no cancel request"
-            f"{_complaint(parent)}",
+            f"{_error_in_log(parent)}",
             f"a cancel request to the child after {PATIENCE:g} s without feedback",
             "call child.cancel_goal_async() before you end the errand: the child may still walk"
             if goal.is_over
@@ -162,7 +162,7 @@ def _require_cancel_of_a_silent_child() -> str:
     outcome = _end_of(goal, parent, PATIENCE + END_TIMEOUT, "the silent child was cancelled")
     expect(
         _has_ended(legs, 0),
-        seen=f"the errand ended {outcome.status} at once, but its child ended a second later{_complaint(parent)}",
+        seen=f"the errand ended {outcome.status} at once, but its child ended a second later{_error_in_log(parent)}",
         expected="the child ends first: it gives no feedback, but it still responds to a cancel",
         next="call wait_for(end, PATIENCE) after the cancel request",
     )
@@ -172,14 +172,14 @@ def _require_cancel_of_a_silent_child() -> str:
 
 def _require_abort(outcome: Outcome, parent: StudentNode) -> None:
     expect(
-        outcome.status == "ABORTED" and "event CANCELED" not in _complaint(parent),
-        seen=f"the errand ended {outcome.status}{_complaint(parent)}",
+        outcome.status == "ABORTED" and "event CANCELED" not in _error_in_log(parent),
+        seen=f"the errand ended {outcome.status}{_error_in_log(parent)}",
         expected="ABORTED, by your own call of goal_handle.abort()",
         next="end it with goal_handle.abort(): the errand was not cancelled",
     )
     expect(
         "go_ahead" in outcome.result.error_msg,
-        seen=f"ABORTED with error_msg {outcome.result.error_msg!r}{_complaint(parent)}",
+        seen=f"ABORTED with error_msg {outcome.result.error_msg!r}{_error_in_log(parent)}",
         expected="an error_msg that names go_ahead",
         next="call goal_handle.abort() once, and return WalkTo.Result(error_msg=…) with the name go_ahead in it",
     )
@@ -201,14 +201,14 @@ def finds_the_way_out() -> str:
         is_pair = isinstance(got, tuple | list) and len(got) == 2 and isinstance(got[1], tuple | list)
         expect(
             is_pair,
-            seen=f"{got!r} for {step!r}",
+            seen=f"way_out({step!r}) returned {got!r}",
             expected=f"{wanted!r}",
             next="end each path with `return` and a pair: True or False, and a list of steps",
         )
         stop, then = got
         expect(
             (bool(stop), list(then)) == wanted,
-            seen=f"{(stop, list(then))!r} for {step!r}",
+            seen=f"way_out({step!r}) returned {(stop, list(then))!r}",
             expected=f"{wanted!r}",
             next=reason,
         )
@@ -236,12 +236,12 @@ def _under_way(parent: StudentNode, seconds: float) -> Goal:
             break
     if not sent.is_over:
         raise not_yet(
-            f"go_ahead gave no feedback; the errand is {sent.status}{_complaint(parent)}",
+            f"go_ahead gave no feedback; the errand is {sent.status}{_error_in_log(parent)}",
             "feedback from go_ahead",
             "read the node's log: print(server.log())",
         )
     raise not_yet(
-        f"the errand ended {_status(sent)} while its child was still active{_complaint(parent)}",
+        f"the errand ended {_status(sent)} while its child was still active{_error_in_log(parent)}",
         "an errand that waits for its child",
         "wait until end.done() is true, and make no terminal call before that",
     )
@@ -257,7 +257,7 @@ def _end_of(goal: Goal, parent: StudentNode, seconds: float, situation: str) -> 
     if goal.is_over:
         return goal.result(show_feedback=False)
     raise not_yet(
-        f"{situation}; {seconds:g} s later the errand is still {goal.status}{_complaint(parent)}",
+        f"{situation}; {seconds:g} s later the errand is still {goal.status}{_error_in_log(parent)}",
         "an errand that has ended",
         "end the branch with a terminal call and `return WalkTo.Result(…)`; wait only with a limit, "
         "wait_for(end, PATIENCE)",
@@ -283,7 +283,7 @@ def _status(goal: Goal) -> str:
     return goal.result(show_feedback=False).status if goal.is_over and goal.accepted else goal.status
 
 
-def _complaint(node: StudentNode) -> str:
+def _error_in_log(node: StudentNode) -> str:
     """Return the last error in a node's log as the end of a `seen` sentence; "" without an error."""
     error = last_error(node.log(), node.file.name)
     return f"; the node's log says: {error}" if error else ""

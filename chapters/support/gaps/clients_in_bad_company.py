@@ -13,7 +13,7 @@ from lab.running.student_nodes import run_node
 SERVER_PROGRAM = f"{harness.__path__[0]}/trigger_server.py"
 
 
-def reads_the_answer() -> str:
+def reads_success() -> str:
     """Run forward_fixed.py with a server that refuses, then with one that grants the request."""
     run_node(SERVER_PROGRAM, "forward", "refuses")
     refused = run_program("forward_fixed.py")
@@ -49,7 +49,7 @@ def reads_the_answer() -> str:
     return "after a refusal: exit status 1 and the server's reason on stderr; after a success: exit status 0"
 
 
-def sends_a_request_of_its_own() -> str:
+def sends_a_new_request_each_time() -> str:
     """Run sum_fixed.py while the server adder.py runs."""
     run_node("adder.py")
     program = run_program("sum_fixed.py", "2", "3")
@@ -86,4 +86,4 @@ def _require_no_traceback(program: Program) -> None:
     )
 
 
-GAPS = (Gap("forward_fixed.py", reads_the_answer), Gap("sum_fixed.py", sends_a_request_of_its_own))
+GAPS = (Gap("forward_fixed.py", reads_success), Gap("sum_fixed.py", sends_a_new_request_each_time))

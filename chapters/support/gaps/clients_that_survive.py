@@ -48,7 +48,7 @@ def try_calls(function: str, *cases: str) -> list[dict[str, Any]]:
     raise not_yet(f"the program ended: {reason}", "a call that returns", "fix the error that is named here")
 
 
-def looks_and_removes() -> str:
+def returns_the_response_or_removes_the_request() -> str:
     """Call ask_once with a server that responds, then with one that does not."""
     answered, silent = try_calls("ask_once", "answering:2.0", "silent:0.5")
     for call in (answered, silent):
@@ -75,7 +75,7 @@ def looks_and_removes() -> str:
 
 
 def keeps_one_deadline() -> str:
-    """Call ask with five situations: a server that responds, loses a request, never responds, is missing; no time."""
+    """Call ask while the server responds, ignores one request, never responds, is missing, and after the deadline."""
     answering, first_lost, silent, missing, over = try_calls(
         "ask", "answering:5.0", "first_lost:5.0", "silent:2.5", "missing:0.5", "silent:-1.0"
     )
@@ -152,4 +152,7 @@ def _in_words(call: dict[str, Any]) -> str:
     return f"it returned {call['returned']} after {call['seconds']:.1f} s and {requests}"
 
 
-GAPS = (Gap("ask_once.py", looks_and_removes), Gap("bounded.py", keeps_one_deadline))
+GAPS = (
+    Gap("ask_once.py", returns_the_response_or_removes_the_request),
+    Gap("bounded.py", keeps_one_deadline),
+)

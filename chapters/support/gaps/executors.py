@@ -33,7 +33,7 @@ EXIT_TIMEOUT = 1.0  # s until a node exits after an exception
 POSITION = "x 1.00 m, y 0.00 m"
 
 
-def heart_beats_beside_the_sleep() -> str:
+def heartbeat_continues_during_the_sleep() -> str:
     """Call look_around of two_groups.py, and measure the gaps between its heartbeats."""
     gap, _ = _look_around(run_node("two_groups.py"))
     expect(
@@ -67,7 +67,7 @@ def waits_without_a_thread() -> str:
     return f"it looked around twice on one thread; the longest gap between two heartbeats was {gap:.2f} s"
 
 
-def reports_or_says_why_not() -> str:
+def reports_or_refuses() -> str:
     """Request reports while where_am_i is missing, responds, is missing again, and does not respond."""
     node = run_node("report_fixed.py")
     _expect_refusal(node, "no server offers where_am_i")
@@ -133,7 +133,7 @@ def _look_around(node: StudentNode) -> tuple[float, float]:
             or not node.is_running
         ):
             raise not_yet(
-                f"no heartbeat arrived{_complaint(node)}",
+                f"no heartbeat arrived{_error_in_log(node)}",
                 "ten heartbeats a second",
                 "call super().__init__(…)",
             )
@@ -152,16 +152,16 @@ def _look_around(node: StudentNode) -> tuple[float, float]:
 
 def _no_answer(node: StudentNode) -> Exception:
     ended = becomes_true(lambda: not node.is_running, EXIT_TIMEOUT)
-    complaint = _complaint(node) if ended else ""
+    error = _error_in_log(node) if ended else ""
     advice = (
         "await an rclpy Future: asyncio's event loop doesn't run here"
-        if "event loop" in complaint
+        if "event loop" in error
         else "fix the error that is named here"
         if ended
         else "let a timer complete the future, and give the timer callback_group=self.waiting: "
         "the default group runs no other callback while look_around awaits"
     )
-    return not_yet(f"look_around did not respond{complaint}", f"a response after {LOOK_DURATION:g} s", advice)
+    return not_yet(f"look_around did not respond{error}", f"a response after {LOOK_DURATION:g} s", advice)
 
 
 def _expect_refusal(node: StudentNode, situation: str) -> None:
@@ -181,7 +181,7 @@ def _report(node: StudentNode, situation: str) -> Any:
         pass
     if becomes_true(lambda: not node.is_running, EXIT_TIMEOUT):
         raise not_yet(
-            f"the service report did not respond{_complaint(node)}",
+            f"the service report did not respond{_error_in_log(node)}",
             "a report",
             "fix the error that is named here",
         )
@@ -208,7 +208,7 @@ def _where_am_i() -> Iterator[None]:
         connection().node.destroy_service(service)
 
 
-def _complaint(node: StudentNode) -> str:
+def _error_in_log(node: StudentNode) -> str:
     """Return the last error of a node that has ended as the end of a `seen` sentence; "" if it still runs."""
     return (
         "" if node.is_running else f"; the node has ended: {last_error_or_line(node.log(), node.file.name)}"
@@ -216,7 +216,7 @@ def _complaint(node: StudentNode) -> str:
 
 
 GAPS = (
-    Gap("two_groups.py", heart_beats_beside_the_sleep),
+    Gap("two_groups.py", heartbeat_continues_during_the_sleep),
     Gap("awaiting.py", waits_without_a_thread),
-    Gap("report_fixed.py", reports_or_says_why_not),
+    Gap("report_fixed.py", reports_or_refuses),
 )

@@ -58,14 +58,14 @@ def decides_the_phase() -> str:
         got = run_student_code(partial(program["next_phase"], phase, distance, bearing), "route.py")
         expect(
             got == wanted,
-            seen=f"{got!r} for phase {phase!r}, a distance of {distance} m and a bearing of {bearing} rad",
+            seen=f"next_phase({phase!r}, {distance}, {bearing}) returned {got!r}",
             expected=repr(wanted),
             next="end each path with `return` and a phase" if got is None else reason,
         )
     return f"the right phase in {len(situations)} situations, one of them after a push"
 
 
-def forgets_the_sway() -> str:
+def leaves_out_the_sway() -> str:
     """Compute the length of four paths that contain the sway of the pelvis, and compare it with the true length."""
     walked = read_program("odometer.py")["walked"]
     paths = {
@@ -79,7 +79,7 @@ def forgets_the_sway() -> str:
     naive = _walked_naively(march)
     expect(
         marched < naive / 2,
-        seen=f"{marched:.2f} m for a robot that steps on the spot for {MARCH_DURATION:g} s; "
+        seen=f"walked() returned {marched:.2f} m for a robot that steps on the spot for {MARCH_DURATION:g} s; "
         f"the sum of all pieces is {naive:.2f} m",
         expected=f"less than {MAX_COUNTED_SWAY} m",
         next="skip a piece that is shorter than `shortest`, and set last = here only when you count a piece",
@@ -95,18 +95,20 @@ def forgets_the_sway() -> str:
         else:
             advice = "set last = here when you count a piece, or the same metres are counted again"
         raise not_yet(
-            f"{metres:.2f} m for {name}", f"{truth:.2f} m, within {MAX_PATH_ERROR_RATIO:.0%}", advice
+            f"walked() returned {metres:.2f} m for {name}",
+            f"{truth:.2f} m, within {MAX_PATH_ERROR_RATIO:.0%}",
+            advice,
         )
     expect(
         marched <= MAX_COUNTED_SWAY,
-        seen=f"{marched:.2f} m for a robot that steps on the spot for {MARCH_DURATION:g} s",
+        seen=f"walked() returned {marched:.2f} m for a robot that steps on the spot for {MARCH_DURATION:g} s",
         expected=f"at most {MAX_COUNTED_SWAY} m",
         next="compare each piece with `shortest`: a shorter one may be sway",
     )
     everything = float(run_student_code(partial(walked, march, SHORT_PIECE), "odometer.py"))
     expect(
         everything > naive / 2,
-        seen=f"{everything:.2f} m for a robot that steps on the spot, with shortest={SHORT_PIECE}",
+        seen=f"walked() returned {everything:.2f} m for a robot that steps on the spot, with shortest={SHORT_PIECE}",
         expected=f"almost {naive:.2f} m, the sum of all pieces",
         next="compare with the argument `shortest`, not with a number of your own",
     )
@@ -116,7 +118,7 @@ def forgets_the_sway() -> str:
     )
 
 
-def knows_a_charge() -> str:
+def ignores_invalid_percentages() -> str:
     """Call decide() with valid and invalid percentages."""
     program = read_program("battery_watch.py")
     ignore, cancel, go_on = (program[name] for name in ("IGNORE", "CANCEL", "GO_ON"))
@@ -140,7 +142,7 @@ def knows_a_charge() -> str:
         got = run_student_code(partial(program["decide"], percentage), "battery_watch.py")
         expect(
             got == wanted,
-            seen=f"{got!r} for {percentage:g}",
+            seen=f"decide({percentage:g}) returned {got!r}",
             expected=repr(wanted),
             next="end each path with `return` and IGNORE, CANCEL or GO_ON" if got is None else reason,
         )
@@ -184,6 +186,6 @@ def _sway(t: float) -> float:
 
 GAPS = (
     Gap("route.py", decides_the_phase),
-    Gap("odometer.py", forgets_the_sway),
-    Gap("battery_watch.py", knows_a_charge),
+    Gap("odometer.py", leaves_out_the_sway),
+    Gap("battery_watch.py", ignores_invalid_percentages),
 )

@@ -116,7 +116,7 @@ def decides_by_the_new_values() -> str:
         )
         expect(
             result.successful or result.reason.strip(),
-            seen=f"decide() refuses without a reason {about}",
+            seen=f"without a reason, decide() refuses {about}",
             expected="a reason for people",
             next="pass a reason=… to SetParametersResult, too",
         )
@@ -124,7 +124,7 @@ def decides_by_the_new_values() -> str:
     return f"{len(cases) - refused} sets accepted, {refused} refused with a reason, two of them NaN"
 
 
-def sees_every_set() -> str:
+def publishes_for_every_accepted_set() -> str:
     """Start guarded.py with valid values, set parameters, and start it again with invalid values."""
     with _radii() as radii:
         node = _start_or_explain(speed=0.1, turn=0.2)
@@ -273,7 +273,7 @@ def _words(values: Mapping[str, Any]) -> str:
     return ", ".join(f"{name} {value}" for name, value in values.items())
 
 
-def waits_until_it_lasts() -> str:
+def waits_for_a_lasting_condition() -> str:
     """Call lasts() of two objects at several times, for one of them from time 0 on."""
     make = read_program("steady.py")["Steady"]
     one, other = (run_student_code(partial(make, seconds), "steady.py") for seconds in (0.5, 0.2))
@@ -336,7 +336,7 @@ def waits_until_it_lasts() -> str:
 
 GAPS = (
     Gap("decide.py", decides_by_the_new_values),
-    Gap("guarded.py", sees_every_set),
+    Gap("guarded.py", publishes_for_every_accepted_set),
     Gap("start.yaml", starts_from_the_file),
-    Gap("steady.py", waits_until_it_lasts),
+    Gap("steady.py", waits_for_a_lasting_condition),
 )

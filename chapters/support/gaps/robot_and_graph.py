@@ -49,7 +49,7 @@ def receives_five_topics() -> str:
     return f"messages arrived on {', '.join(sorted(received))}"
 
 
-def knows_the_mode_at_once() -> str:
+def receives_the_stored_state() -> str:
     """Check that the last robot_state arrives while the simulation is paused and the robot publishes nothing."""
     _ensure_standing()
     with _paused_simulation():
@@ -210,6 +210,6 @@ def _paused_simulation() -> Iterator[None]:
 
 GAPS = (
     Gap("monitor_fixed.py", receives_five_topics),
-    Gap("robot_mode.py", knows_the_mode_at_once),
+    Gap("robot_mode.py", receives_the_stored_state),
     Gap("one_metre.py", walks_one_metre),
 )

@@ -69,7 +69,7 @@ def rejects_what_cannot_work() -> str:
     return f"it accepted {len(TO_ACCEPT)} goals and rejected {len(trials) - len(TO_ACCEPT)}"
 
 
-def measures_after_settling() -> str:
+def measures_after_the_robot_stands() -> str:
     """Walk a toy robot half a metre; it is pushed back when it stops for the first time."""
     (seen,) = _trial("settling")
     returned, ended = seen["returned"], seen["ended"]
@@ -311,7 +311,7 @@ def _trial(name: str) -> list[dict[str, Any]]:
 
 GAPS = (
     Gap("rejecting_walk.py", rejects_what_cannot_work),
-    Gap("settled_walk.py", measures_after_settling),
+    Gap("settled_walk.py", measures_after_the_robot_stands),
     Gap("told_walk.py", publishes_feedback),
     Gap("follow.py", reads_the_status_first),
 )
