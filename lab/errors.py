@@ -4,7 +4,7 @@ from __future__ import annotations
 
 
 class LabError(Exception):
-    """Base class of the lab's errors; on its own, wrong use of a function of the lab."""
+    """Base class of the lab's errors; raised itself when a function of the lab is used wrongly."""
 
     def _render_traceback_(self) -> list[str]:
         """Return the one line that Jupyter shows instead of a traceback through the lab's own code."""

@@ -192,7 +192,7 @@ def starts_from_the_file() -> str:
 
 
 def _about_the_file(text: str) -> str:
-    """Return the advice how to correct a parameter file."""
+    """Return the advice on how to correct a parameter file."""
     levels = "three levels, each indented by two more spaces: the node, ros__parameters, and name: value"
     try:
         content = yaml.safe_load(text)

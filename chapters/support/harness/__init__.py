@@ -1,1 +1,1 @@
-"""Programs that the checks of gaps run as processes of their own, to test a student's file."""
+"""Programs that the checks of gaps run in separate processes, to test a student's file."""

@@ -22,7 +22,7 @@ from humanoid_interfaces.action import WalkTo
 
 PERIOD = 0.1  # s between feedback messages
 CANCEL_DURATION = 1.0  # s
-MESSAGES_BEFORE_SILENCE = 3  # messages
+MESSAGES_BEFORE_SILENCE = 3
 
 
 def report(what: str) -> None:
