@@ -41,7 +41,7 @@ class GaveUp(Event):
 
 @dataclass(frozen=True)
 class Message(Arrow):
-    """An arrow; `repeats` means that it is part of a stream, of which the diagram shows only the ends."""
+    """An arrow; `repeats` means that it belongs to a stream, of which the diagram shows the first and the last one."""
 
     repeats: bool = False
 

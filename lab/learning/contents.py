@@ -30,7 +30,7 @@ class Exercise:
 
 @dataclass(frozen=True)
 class Chapter:
-    """A chapter, titled such as "1 The robot and its graph"; `minutes` is about how long it takes."""
+    """A chapter, such as "1 The robot and its graph"; `minutes` is about how long it takes."""
 
     title: str
     notebook: Path
