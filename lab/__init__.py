@@ -1,12 +1,12 @@
-"""The API of the notebooks: start the robot, run your file as a node, call, send a goal, draw what happened.
+"""The API of the notebooks: start the robot, run a file as a node, call a service, send a goal, draw what happened.
 
     import lab
     lab.start_robot()
     server = lab.run_node("battery_service.py")
     lab.call("get_battery_status", GetBatteryStatus)
 
-Every function that waits has a timeout, and its error says what was seen. Import `lab` before any ROS message: it
-switches on rclpy's checks of field types, which rclpy reads at the first import.
+Every function that waits has a timeout, and its error says what was seen. Import `lab` before any ROS message type:
+it turns on rclpy's checks of field types by an environment variable that rclpy reads when it is first imported.
 """
 # ruff: noqa: F401
 

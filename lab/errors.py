@@ -1,18 +1,18 @@
-"""The errors of the lab; each message says what was seen, what was expected and what to do next."""
+"""The errors of the lab; each message says what went wrong and what to do next."""
 
 from __future__ import annotations
 
 
 class LabError(Exception):
-    """Base class: a request of a notebook failed."""
+    """Base class of the lab's errors; raised itself when a function of the lab is used wrongly."""
 
     def _render_traceback_(self) -> list[str]:
-        """Jupyter shows this line instead of a traceback, which would only list lines of the lab."""
+        """Return the one line that Jupyter shows instead of a traceback through the lab's own code."""
         return [f"{type(self).__name__}: {self}"]
 
 
 class NoRobotError(LabError):
-    """The robot does not run, or publishes nothing."""
+    """The robot does not run, or publishes no messages."""
 
 
 class NoServerError(LabError):
@@ -20,11 +20,11 @@ class NoServerError(LabError):
 
 
 class NoAnswerError(LabError):
-    """The server did not answer in time, or is gone."""
+    """The server did not respond in time, or has ended."""
 
 
 class NodeEndedError(LabError):
-    """Your file ended with an error before its node had started."""
+    """The student's file ended with an error before its node had started."""
 
 
 class NotInTimeError(LabError):

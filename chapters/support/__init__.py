@@ -1,1 +1,1 @@
-"""What the chapters bring: questions, gaps, and the programs that gaps are checked beside."""
+"""The content of the chapters: quiz questions, checks of gaps, and programs that run beside a checked gap."""

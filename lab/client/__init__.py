@@ -1,1 +1,1 @@
-"""The client of a notebook: topics, services, actions, and the record of what was sent and received."""
+"""The notebook's client of topics, services and actions, and the log of what it sent and received."""

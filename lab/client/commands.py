@@ -1,4 +1,4 @@
-"""Commands to the robot by topic."""
+"""Publishes commands to the robot."""
 
 from __future__ import annotations
 
@@ -9,31 +9,32 @@ from typing import Any
 from geometry_msgs.msg import Twist
 
 from lab.client.connection import NAMESPACE, connection
-from lab.client.waiting import comes_true
+from lab.client.waiting import becomes_true
 from lab.errors import NoRobotError
 
 COMMAND_PERIOD = 0.1  # s; the robot stops by itself 0.5 s after the last command
 
 
 def publish(topic: str, message: Any, *, timeout: float = 5.0) -> None:
-    """Wait for a subscriber, then publish one message; without a subscriber it would be lost.
+    """Wait for a subscriber, then publish one message; a message without a subscriber would be lost.
 
     Raises NoRobotError when there is no subscriber within `timeout` s.
     """
     publisher = _publisher(topic, type(message))
-    if not comes_true(lambda: publisher.get_subscription_count() > 0, timeout):
+    if not becomes_true(lambda: publisher.get_subscription_count() > 0, timeout):
         raise NoRobotError(
-            f"nobody subscribes to {NAMESPACE}/{topic} ({type(message).__name__}) after {timeout:g} s; "
-            "is the robot up (lab.start_robot()), and is that the topic's type?"
+            f"no node has subscribed to {NAMESPACE}/{topic} with type {type(message).__name__} within {timeout:g} s. "
+            "Start the robot with lab.start_robot(), and check the topic's name and type."
         )
     publisher.publish(message)
 
 
 @contextmanager
 def walking(forward: float = 0.0, sideways: float = 0.0, turn: float = 0.0) -> Iterator[None]:
-    """Walk as long as the `with` block lasts, then stop: m/s, m/s (left is positive), rad/s (left is positive).
+    """Walk while the `with` block runs, then stop.
 
-    It publishes cmd_vel ten times a second, because the robot stops when it receives nothing for 0.5 s.
+    `forward` and `sideways` are in m/s, `turn` is in rad/s; left is positive. The velocity is published on cmd_vel ten
+    times a second, because the robot stops when it receives no command for 0.5 s.
     """
     command = Twist()
     command.linear.x, command.linear.y, command.angular.z = float(forward), float(sideways), float(turn)
@@ -48,6 +49,6 @@ def walking(forward: float = 0.0, sideways: float = 0.0, turn: float = 0.0) -> I
 
 
 def _publisher(topic: str, message_type: Any) -> Any:
-    return connection().once(
+    return connection().get_or_create(
         (topic, message_type), lambda node: node.create_publisher(message_type, topic, 10)
     )

@@ -1,4 +1,4 @@
-"""The notebook's own node, in a ROS domain of its own, spun by a background thread."""
+"""The notebook's own ROS node: its domain, its cached clients, and the background thread that spins it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from rclpy.node import Node, NodeNameNonExistentError
 from rclpy.signals import SignalHandlerOptions
 
 from lab.client.interaction_log import conversation
-from lab.client.waiting import comes_true
+from lab.client.waiting import becomes_true
 from lab.errors import LabError
 from ros_runtime.environment import ros_environment
 from ros_runtime.notebook_domains import announce, expect_node, forget_node
@@ -25,7 +25,7 @@ from ros_runtime.recorded_client.service_client import ServiceClient
 from ros_runtime.ros_domain import NoDomainLeft, ReservedDomain, loopback_variables
 
 NAMESPACE = "/robot"
-OF_EVERY_NODE = (
+STANDARD_SERVICES = (
     "describe_parameters",
     "get_parameter_types",
     "get_parameters",
@@ -34,7 +34,7 @@ OF_EVERY_NODE = (
     "set_parameters",
     "set_parameters_atomically",
 )
-OF_EVERY_ACTION = ("cancel_goal", "get_result")  # its send_goal service is the one that is listed
+UNLISTED_ACTION_SERVICES = ("cancel_goal", "get_result")  # send_goal stands for the whole action
 
 T = TypeVar("T")
 
@@ -42,7 +42,7 @@ _connection: Connection | None = None
 
 
 def connection() -> Connection:
-    """The kernel's connection to the ROS graph, made at the first call."""
+    """Return the kernel's connection to the ROS graph; the first call makes it."""
     global _connection
     if _connection is None:
         _connection = Connection()
@@ -50,7 +50,7 @@ def connection() -> Connection:
 
 
 def node() -> Node:
-    """The notebook's own rclpy node, for what `lab` has no function for. The lab spins it."""
+    """Return the notebook's own rclpy node, for things that `lab` has no function for. The lab spins it."""
     return connection().node
 
 
@@ -64,11 +64,11 @@ def disconnect() -> None:
 
 @cache
 def join_ros_domain() -> ReservedDomain:
-    """Reserve a domain until this process ends and put the network's settings into its environment.
+    """Reserve a ROS domain until this process ends, and set this process's environment variables for it.
 
-    The terminals of the same lab can join it.
+    The terminals of the same JupyterLab can join the domain.
 
-    Raises LabError when every domain is taken.
+    Raises LabError when all domains are in use.
     """
     try:
         domain = ReservedDomain()
@@ -76,7 +76,7 @@ def join_ros_domain() -> ReservedDomain:
         raise LabError(f"{error}: shut down idle kernels") from error
     os.environ.update(ros_environment() | loopback_variables())
     os.environ["ROS_DOMAIN_ID"] = str(domain.domain_id)
-    os.environ.pop("ROS_AUTOMATIC_DISCOVERY_RANGE", None)  # it would override the profile
+    os.environ.pop("ROS_AUTOMATIC_DISCOVERY_RANGE", None)  # it would override the network settings
     announce(domain.domain_id)
     return domain
 
@@ -91,7 +91,7 @@ class Connection:
             args=[],
             context=self._context,
             domain_id=self.domain_id,
-            signal_handler_options=SignalHandlerOptions.NO,  # a KeyboardInterrupt of a cell must not shut the node down
+            signal_handler_options=SignalHandlerOptions.NO,  # interrupting a cell must not end the node
         )
         self.node = Node(
             "notebook", namespace=NAMESPACE, context=self._context, start_parameter_services=False
@@ -103,28 +103,31 @@ class Connection:
         self._thread = threading.Thread(target=self._spin, name="lab spin", daemon=True)
         self._thread.start()
 
-    def once(self, key: Hashable, make: Callable[[Node], T]) -> T:
-        """Return `make(node)`; later calls with the same key return the same object."""
+    def get_or_create(self, key: Hashable, make: Callable[[Node], T]) -> T:
+        """Return the object that is stored under this key; the first call makes it with `make(node)`."""
         if key not in self._cache:
             self._cache[key] = make(self.node)
         return self._cache[key]
 
     def client(self, service_type: Any, name: str) -> ServiceClient:
-        """The client of a service. A client of another type with this name is destroyed first: rcl allows only one."""
+        """Return the client of a service.
+
+        A client of the same name but another type is destroyed first, because rcl allows only one type.
+        """
         key = ("client", name)
         if key in self._cache and self._cache[key].type is not service_type:
             self._drop_client(self._cache.pop(key).endpoint)
-        return self.once(key, lambda node: ServiceClient(node, name, service_type, conversation))
+        return self.get_or_create(key, lambda node: ServiceClient(node, name, service_type, conversation))
 
     def _drop_client(self, client: Any) -> None:
-        """Destroy a client and wait until the spinning thread has let go of it."""
+        """Destroy a client and wait until the spinning thread no longer uses it."""
         handle = weakref.ref(client.handle)
         self.node.destroy_client(client)
         del client
-        comes_true(lambda: handle() is None, 1.0)
+        becomes_true(lambda: handle() is None, 1.0)
 
     def servers(self) -> dict[str, str]:
-        """The services and actions of other nodes, full name → type, without the services that every node has."""
+        """Return the types of the services and actions of other nodes, by full name, without the standard services."""
         found: dict[str, str] = {}
         for name, namespace in self.node.get_node_names_and_namespaces():
             if name != self.node.get_name():
@@ -139,7 +142,7 @@ class Connection:
         return {
             service.partition("/_action/")[0]: types[0].removesuffix("_SendGoal")
             for service, types in services
-            if service.rpartition("/")[2] not in (*OF_EVERY_NODE, *OF_EVERY_ACTION)
+            if service.rpartition("/")[2] not in (*STANDARD_SERVICES, *UNLISTED_ACTION_SERVICES)
         }
 
     def close(self) -> None:
@@ -156,5 +159,7 @@ class Connection:
                 self._executor.spin()
             except ExternalShutdownException:
                 return
-            except Exception:  # a listener of the notebook failed: print the error and keep spinning
+            except (
+                Exception
+            ):  # a callback or listener of the notebook raised: print the error and keep spinning
                 traceback.print_exc()

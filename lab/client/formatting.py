@@ -1,4 +1,4 @@
-"""ROS messages as one readable line."""
+"""Formats ROS messages as one readable line."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def describe(message: Any) -> str:
 
 
 def describe_briefly(message: Any) -> str:
-    """Like `describe`, but shorter, for diagrams: without names of pose fields, and without zero or empty fields."""
+    """Format a message for diagrams, shorter than `describe`: without zero or empty fields and pose field names."""
     fields = [(name, value) for name, value in _fields(message) if _is_informative(value)]
     parts = [_value(value) if _is_pose(value) else f"{name} {_value(value)}" for name, value in fields]
     return ", ".join(parts) or describe(message)

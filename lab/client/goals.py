@@ -1,4 +1,4 @@
-"""Send a goal to an action server, follow it, cancel it."""
+"""Sends goals to action servers, receives feedback and results, and cancels goals."""
 
 from __future__ import annotations
 
@@ -25,17 +25,17 @@ def send_goal(action: str, action_type: Any, goal: Any, *, timeout: float = 5.0)
         action: its name, relative to the robot's namespace.
         action_type: such as `humanoid_interfaces.action.WalkTo`.
         goal: an `action_type.Goal`.
-        timeout: s, for finding the server and for its answer, each.
+        timeout: s, once for finding the server and once more for its goal response.
 
     Raises:
-        NoServerError: nobody offers the action.
-        NoAnswerError: the server has neither accepted nor rejected in time.
+        NoServerError: no node offers the action.
+        NoAnswerError: the server has neither accepted nor rejected the goal in time.
     """
     if not isinstance(goal, action_type.Goal):
         wanted = f"{action_type.__name__}.Goal"
         raise LabError(f"the goal is a {type(goal).__name__}; {action} takes a {wanted}(…)")
     here = connection()
-    client = here.once(
+    client = here.get_or_create(
         ("action", action, action_type), lambda node: ActionClient(node, action, action_type, conversation)
     )
     require_server(lambda: not client.unmatched(here.node.count_publishers), action, action_type, timeout)
@@ -45,7 +45,7 @@ def send_goal(action: str, action_type: Any, goal: Any, *, timeout: float = 5.0)
             sent,
             timeout,
             f"{action} has neither accepted nor rejected the goal within {timeout:g} s. "
-            "Is its goal callback or its only thread busy?",
+            "The server's goal callback or its only thread may be busy.",
         )
     return Goal(action, sent)
 
@@ -59,29 +59,29 @@ class Goal:
 
     @property
     def accepted(self) -> bool:
-        """Whether the server accepted it; a rejected goal has no status and no result."""
+        """Whether the server accepted the goal; a rejected goal has no status and no result."""
         return bool(self._sent.accepted)
 
     @property
     def feedback(self) -> list[Any]:
-        """The feedback messages so far."""
+        """The feedback messages that have arrived so far."""
         return self._sent.feedback
 
     @property
     def status(self) -> str:
-        """The name of its status, as last published on the status topic or returned with the result."""
+        """The name of the goal's last known status, from the status topic or from the result."""
         return name_of(GoalStatus, self._sent.status)
 
     @property
     def is_over(self) -> bool:
-        """Whether the result has arrived, or will not because the goal was rejected."""
+        """Whether the result has arrived, or the goal was rejected and will have no result."""
         return not self.accepted or self._sent.has_ended
 
     def result(self, timeout: float = 60.0, *, show_feedback: bool = True) -> Outcome:
-        """Wait until the goal has ended and return status and result. Prints feedback, at most once a second.
+        """Wait until the goal has ended and return its status and result; print feedback at most once a second.
 
         Raises:
-            NoAnswerError: the goal has not ended in time; it continues, and you may call this again.
+            NoAnswerError: the goal has not ended in time; it stays active, and you may call this again.
         """
         if not self.accepted:
             raise LabError(f"{self._action} rejected this goal, so it has no result")
@@ -102,24 +102,24 @@ class Goal:
         return Outcome(name_of(GoalStatus, self._sent.result.status), self._sent.result.result)
 
     def cancel(self, timeout: float = 5.0) -> CancelAnswer:
-        """Ask the server to cancel this goal and return its answer. Accepting a cancel does not end the goal yet.
+        """Send a cancel request for this goal and return the response. An accepted cancel does not end the goal yet.
 
         Raises:
             NoAnswerError: the server has not answered in time.
         """
-        asked = self._sent.cancel()
-        asked.wait(timeout)
-        if asked.answer is None:
+        request = self._sent.cancel()
+        request.wait(timeout)
+        if request.answer is None:
             raise give_up(
-                asked,
+                request,
                 timeout,
-                f"{self._action} has not answered the request to cancel within {timeout:g} s: "
-                "a server whose only thread is busy cannot.",
+                f"{self._action} has not answered the cancel request within {timeout:g} s. "
+                "The server's only thread may be busy.",
             )
-        return read_cancel_answer(asked.answer, self._sent.name)
+        return read_cancel_answer(request.answer, self._sent.name)
 
     def on_change(self, listener: Callable[[Goal], object]) -> None:
-        """Call `listener(goal)` after each feedback, each change of status and the result, on a thread of the lab."""
+        """Call `listener(goal)` on a thread of the lab after each feedback, each change of status, and the result."""
         self._sent.listeners.append(lambda: listener(self))
 
     def __repr__(self) -> str:

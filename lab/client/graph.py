@@ -1,6 +1,6 @@
-"""The live ROS graph: topics, their publishers and their subscribers.
+"""Reads the live ROS graph: nodes, and topics with their publishers and subscriptions.
 
-Nodes whose names begin with "_" are hidden, as in `ros2 node list`; each running `ros2` command has such a node.
+Nodes whose names begin with "_" are left out, as in `ros2 node list`. Each running `ros2` command has such a node.
 """
 
 from __future__ import annotations
@@ -15,19 +15,19 @@ from lab.client.connection import connection
 from lab.errors import LabError
 from lab.running.student_nodes import NOT_YET_KNOWN
 
-OF_EVERY_NODE = ("/parameter_events", "/rosout")
+STANDARD_TOPICS = ("/parameter_events", "/rosout")
 HIDDEN = "_"  # prefix of hidden nodes, such as those of ros2 commands
 
 
 @dataclass(frozen=True)
 class Endpoint:
-    """A publisher or subscription of a topic: full name of its node, QoS offered (publisher) or requested."""
+    """A publisher or subscription of a topic: its node's full name, and the QoS that it offers or requests."""
 
     node: str
     qos: QoSProfile
 
     def qos_in_words(self) -> str:
-        """Its QoS in words: reliability and durability."""
+        """Describe reliability and durability, such as "best effort" or "reliable, transient local"."""
         reliable = self.qos.reliability == ReliabilityPolicy.RELIABLE
         latched = self.qos.durability == DurabilityPolicy.TRANSIENT_LOCAL
         return ("reliable" if reliable else "best effort") + (", transient local" if latched else "")
@@ -43,7 +43,7 @@ class Topic:
     subscriptions: tuple[Endpoint, ...]
 
     def incompatible_with(self, subscription: Endpoint) -> list[Endpoint]:
-        """The publishers whose QoS is incompatible: they offer less than the subscription requests."""
+        """Return the publishers that offer less than this subscription requests."""
         return [
             publisher
             for publisher in self.publishers
@@ -52,10 +52,11 @@ class Topic:
 
 
 def topics_in_graph(*names: str) -> list[Topic]:
-    """The topics with these names, sorted; without names all, except those that every node has.
+    """Return the topics with these names, sorted; without names, all topics except those that every node has.
 
     A name without a leading slash is relative to the robot's namespace.
-    Raises LabError for a topic without publishers and subscriptions; its message lists the existing topics.
+
+    Raises LabError for a topic that has no publisher and no subscription; the message lists the existing topics.
     """
     node = connection().node
     types = dict(node.get_topic_names_and_types())
@@ -63,7 +64,7 @@ def topics_in_graph(*names: str) -> list[Topic]:
     missing = [name for name in wanted if name not in types]
     if missing:
         raise LabError(
-            f"no node publishes or subscribes to {', '.join(missing)}; there are: {', '.join(sorted(types))}"
+            f"no node publishes or subscribes to {', '.join(missing)}; the topics are: {', '.join(sorted(types))}"
         )
     return [
         Topic(
@@ -72,14 +73,14 @@ def topics_in_graph(*names: str) -> list[Topic]:
             _endpoints(node.get_publishers_info_by_topic(name)),
             _endpoints(node.get_subscriptions_info_by_topic(name)),
         )
-        for name in sorted(wanted or types.keys() - set(OF_EVERY_NODE))
+        for name in sorted(wanted or types.keys() - set(STANDARD_TOPICS))
     ]
 
 
 def list_graph(*names: str) -> None:
-    """Print topics with type, publishers, subscribers, and where incompatible QoS keeps messages away.
+    """Print topics with their type, publishers and subscribers, and which subscriptions have an incompatible QoS.
 
-    Without names it lists all topics except /rosout and /parameter_events, which every node has.
+    Without names it prints all topics except /rosout and /parameter_events, which every node has.
     """
     for topic in topics_in_graph(*names):
         print(f"{topic.name}  {topic.type}")
@@ -94,7 +95,7 @@ def list_graph(*names: str) -> None:
 
 
 def nodes_in_graph() -> list[str]:
-    """The full names of all nodes but hidden ones, sorted."""
+    """Return the full names of all nodes except hidden ones, sorted."""
     return sorted(
         _full_name(namespace, name)
         for name, namespace in connection().node.get_node_names_and_namespaces()

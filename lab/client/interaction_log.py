@@ -1,7 +1,7 @@
-"""The messages between notebook, servers and robot, from which a sequence diagram is drawn.
+"""Logs the messages between notebook, servers and robot, from which a sequence diagram is drawn.
 
-A call or a goal starts a new interaction if nothing is pending. So a goal, its cancel and a second goal that replaces
-it are one interaction, and the call of the next cell starts another.
+A call or a goal starts a new interaction, unless an earlier request is still pending. So a goal, its cancel and a
+second goal that preempts it are one interaction, and the call in the next cell starts another.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from ros_runtime.recorded_client.conversation import UNKNOWN_GOAL, Conversation,
 
 
 class InteractionLog(EventLog):
-    """The events of the present interaction; earlier ones are dropped, because a session lasts for hours."""
+    """The events of the current interaction; earlier events are dropped, because a session lasts for hours."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -37,7 +37,7 @@ class InteractionLog(EventLog):
 
     @contextmanager
     def listening(self, listener: Callable[[Event], object]) -> Iterator[None]:
-        """Call `listener` with each event, on the thread that appends it, as long as the `with` block lasts."""
+        """While the `with` block runs, call `listener` with each event, on the thread that appends the event."""
         with self._changed:
             self._listeners.append(listener)
         try:
@@ -47,7 +47,7 @@ class InteractionLog(EventLog):
                 self._listeners.remove(listener)
 
     def append(self, event: Event) -> None:
-        """Add an event. Its text is made at once, because the student's code may change the message later."""
+        """Add an event. Its arrows are made at once, because the student's code may change the message later."""
         with self._changed:
             if isinstance(event, ServiceCalled | GoalSent) and not self._pending:
                 self.clear()
@@ -58,12 +58,12 @@ class InteractionLog(EventLog):
                 listener(event)
 
     def messages(self) -> list[Message]:
-        """The messages of the present interaction, in order of time."""
+        """Return the messages of the current interaction, in order of time."""
         with self._changed:
             return list(self._messages)
 
     def clear(self) -> None:
-        """Remove all events; nothing counts as pending afterwards."""
+        """Remove all events; no request counts as pending after that."""
         with self._changed:
             super().clear()
             self._messages.clear()

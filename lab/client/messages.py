@@ -1,4 +1,4 @@
-"""Events of a notebook as the arrows of a sequence diagram, and as labels on a time axis."""
+"""Turns a notebook's events into arrows of a sequence diagram, and into labels on a time axis."""
 
 from __future__ import annotations
 
@@ -27,21 +27,21 @@ NOTEBOOK, ROBOT = "notebook", "robot"
 
 @dataclass(frozen=True, kw_only=True)
 class ModeChanged(Event):
-    """The robot published another mode, a constant of humanoid_interfaces/RobotState."""
+    """The mode that the robot publishes has changed; `mode` is a constant of humanoid_interfaces/RobotState."""
 
     mode: int
 
 
 @dataclass(frozen=True, kw_only=True)
 class GaveUp(Event):
-    """The notebook gave up on a request; the caller had allowed `timeout` s."""
+    """The notebook received no answer to a request within `timeout` s."""
 
     timeout: float
 
 
 @dataclass(frozen=True)
 class Message(Arrow):
-    """An arrow; `repeats`: part of a stream, of which the diagram shows only the first and the last message."""
+    """An arrow; `repeats` means that it belongs to a stream, of which the diagram shows the first and the last one."""
 
     repeats: bool = False
 
@@ -129,5 +129,5 @@ def _published(t: float, id: str, label: str, *, repeats: bool = False) -> Messa
 
 
 def _called(id: str) -> str:
-    """The service or action of a call or goal, whose name is that name and a number."""
+    """Return the service or action of a call or goal; `id` is its name followed by a number."""
     return id.rpartition(" ")[0]

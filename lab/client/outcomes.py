@@ -1,4 +1,4 @@
-"""The end of a goal and the answer to a cancel request, as objects for notebooks."""
+"""What a notebook gets when a goal has ended or a cancel request was answered."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Outcome(NamedTuple):
 
 
 class CancelAnswer(NamedTuple):
-    """The answer to a cancel request; `accepted` if the server lists the goal in `goals_canceling`."""
+    """The response to a cancel request; it is accepted if `goals_canceling` contains the goal."""
 
     accepted: bool
     return_code: int
@@ -29,5 +29,5 @@ class CancelAnswer(NamedTuple):
 
 
 def read_cancel_answer(answer: CancelAnswered, goal: str) -> CancelAnswer:
-    """Return the part of a cancel answer that concerns `goal`, the goal's name in the log."""
+    """Return the response to a cancel request for one goal; `goal` is the goal's name in the log."""
     return CancelAnswer(goal in answer.canceling, answer.return_code)

@@ -1,4 +1,4 @@
-"""Call a service and wait for its answer, with a time limit."""
+"""Calls services, with a time limit."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ def call(service: str, service_type: Any, request: Any = None, *, timeout: float
         service: its name, relative to the robot's namespace.
         service_type: such as `std_srvs.srv.Trigger`.
         request: a `service_type.Request`; None sends an empty one.
-        timeout: s, for finding the server and for its answer together.
+        timeout: s, for finding the server and for its response together.
 
     Raises:
-        NoServerError: nobody offers the service.
-        NoAnswerError: a server exists but did not answer in time; it may have done what you asked.
+        NoServerError: no node offers the service.
+        NoAnswerError: a server exists but did not respond in time; it may still have executed the request.
     """
     if request is not None and not isinstance(request, service_type.Request):
         wanted = f"{service_type.__name__}.Request"
@@ -29,18 +29,18 @@ def call(service: str, service_type: Any, request: Any = None, *, timeout: float
     deadline = time.monotonic() + timeout
     client = connection().client(service_type, service)
     require_server(lambda: not client.unmatched(), service, service_type, timeout)
-    asked = client.send(request)
-    if not asked.wait(max(0.0, deadline - time.monotonic())):
+    sent = client.send(request)
+    if not sent.wait(max(0.0, deadline - time.monotonic())):
         raise give_up(
-            asked,
+            sent,
             timeout,
-            f"no answer from {service} within {timeout:g} s. The request was sent; whether it was carried out is "
-            "unknown. If the server still runs, it is busy: a callback must not wait, sleep or call another service "
-            "while the node has only one thread.",
+            f"no answer from {service} within {timeout:g} s. The request was sent, but it is unknown whether the "
+            "server has executed it. If the server still runs, its thread is busy: in a node with only one thread "
+            "a callback must not wait, sleep or call another service.",
         )
-    return asked.response
+    return sent.response
 
 
 def service_is_ready(service: str, service_type: Any) -> bool:
-    """Whether rclpy's `service_is_ready()` is true: a server has been discovered, which may no longer run."""
+    """Whether a server has been discovered, like rclpy's `service_is_ready()`; it may no longer run."""
     return not connection().client(service_type, service).unmatched()

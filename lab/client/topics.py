@@ -1,4 +1,4 @@
-"""The last message on each of the robot's topics, and on those of the objects around it."""
+"""Subscribes to the topics of the robot and of the objects around it, and keeps the last message of each."""
 
 from __future__ import annotations
 
@@ -20,27 +20,27 @@ from lab.client.connection import NAMESPACE, connection
 from lab.client.formatting import fixed
 from lab.client.interaction_log import log
 from lab.client.messages import ModeChanged
-from lab.client.waiting import comes_true
+from lab.client.waiting import becomes_true
 from lab.errors import NoRobotError
 from robot_sim.model.scenes import OBJECTS
 from ros_runtime.angles import yaw_of
 from ros_runtime.message_constants import RobotMode, name_of
 
-QUEUE = 100  # messages: five seconds of odom, so that a busy notebook loses none
-LATCHED = QoSProfile(depth=QUEUE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-BEST_EFFORT = QoSProfile(depth=QUEUE, reliability=ReliabilityPolicy.BEST_EFFORT)
+QUEUE_DEPTH = 100  # messages, which are five seconds of odom: a busy notebook loses none
+LATCHED = QoSProfile(depth=QUEUE_DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+BEST_EFFORT = QoSProfile(depth=QUEUE_DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT)
 TOPICS: dict[str, tuple[Any, Any]] = {
     "robot_state": (RobotState, LATCHED),
     "battery_state": (BatteryState, LATCHED),
-    "odom": (Odometry, QUEUE),
+    "odom": (Odometry, QUEUE_DEPTH),
     "joint_states": (JointState, BEST_EFFORT),
 }
-GRIP = "r_gripper/wrench"  # subscribed to only in scenes with objects
-FRESH = 1.0  # s; each of these topics has at least twice this rate
+GRIPPER_TOPIC = "r_gripper/wrench"  # subscribed to only in scenes with objects
+MAX_AGE = 1.0  # s of a message that still counts as current; each topic is published at least twice a second
 
 
 class Pose(NamedTuple):
-    """Where base_link is, in frame odom: metres and radians."""
+    """The position (m) and heading (rad) of base_link in frame odom."""
 
     x: float
     y: float
@@ -51,22 +51,22 @@ class Pose(NamedTuple):
 
 
 def robot_state() -> RobotState:
-    """The last message on robot_state."""
+    """Return the last message on robot_state."""
     return latest("robot_state")
 
 
 def battery() -> BatteryState:
-    """The last message on battery_state."""
+    """Return the last message on battery_state."""
     return latest("battery_state")
 
 
 def odometry() -> Odometry:
-    """The last message on odom: pose of base_link in frame odom, velocity in base_link."""
+    """Return the last message on odom: the pose of base_link in frame odom, and its velocity in base_link."""
     return latest("odom")
 
 
 def pose() -> Pose:
-    """Position x, y (m) and heading (rad) from the last message on odom."""
+    """Return the position x, y (m) and the heading (rad) from the last message on odom."""
     where = odometry().pose.pose
     q = where.orientation
     yaw = yaw_of(q.x, q.y, q.z, q.w)
@@ -74,63 +74,63 @@ def pose() -> Pose:
 
 
 def mode() -> str:
-    """The robot's mode by its name in RobotState: "OFF", "STANDING", "WALKING" or "FALLEN"."""
+    """Return the robot's mode by its name in RobotState: "OFF", "STANDING", "WALKING" or "FALLEN"."""
     return name_of(RobotMode, robot_state().mode)
 
 
 def latest(topic: str, timeout: float = 5.0) -> Any:
-    """The last message on one of the robot's topics; waits for a new one if the last is older than a second.
+    """Return the last message on one of the robot's topics; if it is older than a second, wait for a new one.
 
-    Raises NoRobotError when none comes within `timeout` s.
+    Raises NoRobotError when no message arrives within `timeout` s.
     """
-    memory = _memory()
-    if not comes_true(lambda: memory.age(topic) <= FRESH, timeout):
+    stored = _last_messages()
+    if not becomes_true(lambda: stored.age(topic) <= MAX_AGE, timeout):
         raise NoRobotError(
-            f"nothing arrived on {NAMESPACE}/{topic} for {timeout:g} s; is the robot up? Try lab.start_robot()"
+            f"no message arrived on {NAMESPACE}/{topic} for {timeout:g} s; does the robot run? Try lab.start_robot()"
         )
-    return memory.messages[topic][0]
+    return stored.messages[topic][0]
 
 
 def has_published() -> bool:
-    """Whether a message was received on every topic of the robot since `enter()`."""
-    return _memory().messages.keys() >= TOPICS.keys()
+    """Whether a message was received on every topic of the robot since `reset_for_scene()`."""
+    return _last_messages().messages.keys() >= TOPICS.keys()
 
 
-def enter(scene: str) -> None:
-    """Forget an earlier robot; listen also to the objects of this scene and to the hand that takes them."""
-    memory = _memory()
-    memory.messages.clear()
-    memory.scene = scene
+def reset_for_scene(scene: str) -> None:
+    """Drop the messages of an earlier robot, and subscribe to the objects of this scene and to the right gripper."""
+    stored = _last_messages()
+    stored.messages.clear()
+    stored.scene = scene
     if OBJECTS[scene]:
-        memory.listen_to(GRIP, WrenchStamped, QUEUE)
+        stored.subscribe(GRIPPER_TOPIC, WrenchStamped, QUEUE_DEPTH)
     for name in OBJECTS[scene]:
-        memory.listen_to(topic_of(name), PoseStamped, QUEUE)
+        stored.subscribe(topic_of(name), PoseStamped, QUEUE_DEPTH)
 
 
 def scene() -> str:
-    """Name of the scene that the robot was started in."""
-    return _memory().scene
+    """Return the name of the scene in which the robot was started."""
+    return _last_messages().scene
 
 
 def object_poses() -> dict[str, PoseStamped]:
-    """The last pose of each object of the scene that has published one."""
-    memory = _memory()
+    """Return the last pose of each object of the scene whose pose has arrived."""
+    stored = _last_messages()
     return {
-        name: memory.messages[topic_of(name)][0]
-        for name in OBJECTS[memory.scene]
-        if topic_of(name) in memory.messages
+        name: stored.messages[topic_of(name)][0]
+        for name in OBJECTS[stored.scene]
+        if topic_of(name) in stored.messages
     }
 
 
 def topic_of(name: str) -> str:
-    """The topic of an object's pose."""
+    """Return the topic of an object's pose."""
     return f"objects/{name}/pose"
 
 
 @contextmanager
 def listening(listener: Callable[[str, Any], object]) -> Iterator[None]:
-    """Call `listener(topic, message)` for each message, on a thread of the lab, as long as the `with` block lasts."""
-    listeners = _memory().listeners
+    """While the `with` block runs, call `listener(topic, message)` for each message, on a thread of the lab."""
+    listeners = _last_messages().listeners
     listeners.append(listener)
     try:
         yield
@@ -138,14 +138,14 @@ def listening(listener: Callable[[str, Any], object]) -> Iterator[None]:
         listeners.remove(listener)
 
 
-def _memory() -> _Memory:
-    return connection().once("last messages", _Memory)
+def _last_messages() -> _LastMessages:
+    return connection().get_or_create("last messages", _LastMessages)
 
 
-class _Memory:
-    """Subscribes to the robot's topics and keeps each topic's last message with its time of arrival.
+class _LastMessages:
+    """Subscribes to topics and keeps each topic's last message with its time of arrival.
 
-    `scene`: name of the scene that the robot was started in.
+    `scene` is the name of the scene in which the robot was started.
     """
 
     def __init__(self, node: Node) -> None:
@@ -155,20 +155,20 @@ class _Memory:
         self._node = node
         self._topics: set[str] = set()
         for topic, (message_type, qos) in TOPICS.items():
-            self.listen_to(topic, message_type, qos)
+            self.subscribe(topic, message_type, qos)
 
-    def listen_to(self, topic: str, message_type: Any, qos: Any) -> None:
-        """Subscribe to a topic, once."""
+    def subscribe(self, topic: str, message_type: Any, qos: Any) -> None:
+        """Subscribe to a topic, unless that was done before."""
         if topic not in self._topics:
             self._topics.add(topic)
-            self._node.create_subscription(message_type, topic, partial(self._keep, topic), qos)
+            self._node.create_subscription(message_type, topic, partial(self._store, topic), qos)
 
     def age(self, topic: str) -> float:
-        """Seconds since the last message on a topic arrived."""
+        """Return how long ago the last message on a topic arrived, in s; infinity if none has arrived."""
         kept = self.messages.get(topic)
         return math.inf if kept is None else time.monotonic() - kept[1]
 
-    def _keep(self, topic: str, message: Any) -> None:
+    def _store(self, topic: str, message: Any) -> None:
         before = self.messages.get(topic)
         self.messages[topic] = (message, time.monotonic())
         if topic == "robot_state" and before and before[0].mode != message.mode:

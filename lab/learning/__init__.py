@@ -1,1 +1,1 @@
-"""Questions, gaps, designs, and the student's progress in them."""
+"""Quizzes, predictions, gaps and designs, and the student's progress in them."""

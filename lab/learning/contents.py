@@ -1,4 +1,4 @@
-"""The chapters and their exercises, as chapters/README.md lists them."""
+"""Reads the list of chapters and their exercises from chapters/README.md."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ _EXERCISE = re.compile(r"\[(?P<name>\w+)\]\(\S+\) \((?P<minutes>\d+)\)")
 
 @dataclass(frozen=True)
 class Exercise:
-    """An exercise of a chapter, and about how many minutes it takes."""
+    """An exercise of a chapter; `minutes` is about how long it takes."""
 
     name: str
     minutes: int
 
     @property
     def notebook(self) -> Path:
-        """Where students work on it."""
+        """The notebook in which students work on it."""
         return WORK / "exercises" / self.name / f"{self.name}.ipynb"
 
 
 @dataclass(frozen=True)
 class Chapter:
-    """A chapter, such as "1 The robot and its graph", and about how many minutes it takes."""
+    """A chapter, such as "1 The robot and its graph"; `minutes` is about how long it takes."""
 
     title: str
     notebook: Path
@@ -44,7 +44,7 @@ class Chapter:
 
     @property
     def name(self) -> str:
-        """The name of its modules in chapters/support/questions and chapters/support/gaps."""
+        """The name of the chapter's modules in chapters/support/questions and chapters/support/gaps."""
         return self.notebook.stem.partition("_")[2]
 
 

@@ -13,11 +13,11 @@ from ros_runtime.drawing.design_graph import design_svg
 from ros_runtime.self_checks import store_check
 
 FACTS_OF_A_LINK = 6
-LARGEST = 1_000_000  # bytes
+MAX_FILE_SIZE = 1_000_000  # bytes
 
 
 def draw_design(file: str | Path, title: str = "") -> HTML:
-    """Draw the nodes and links that a file describes; the lines of a link that lacks a fact are red and dashed.
+    """Draw the nodes and links that a file describes; a link that lacks a fact is drawn red and dashed.
 
     Raises LabError when the file cannot be read, or has no link.
     """
@@ -37,13 +37,15 @@ def check_design(file: str | Path, links: int = 1) -> None:
     path = Path(file)
     design = _read(path)
     sentences = list(_what_is_missing(design, links))
-    said = sum(FACTS_OF_A_LINK - len(link.missing()) for link in design.links)
-    store_check(path.stem, said, FACTS_OF_A_LINK * max(links, len(design.links)))
+    given = sum(FACTS_OF_A_LINK - len(link.missing()) for link in design.links)
+    store_check(path.stem, given, FACTS_OF_A_LINK * max(links, len(design.links)))
     print(f"{path}: {_count(len(design.nodes), 'node')}, {_count(len(design.links), 'link')}")
     for sentence in sentences:
         print(f"  {sentence}")
     if not sentences:
-        print("  Every link has all six facts. A person decides whether they are right.")
+        print(
+            "  Every link has all six facts. Whether they are right is not checked here: your instructor marks that."
+        )
 
 
 def _what_is_missing(design: Design, links: int) -> Iterator[str]:
@@ -54,14 +56,14 @@ def _what_is_missing(design: Design, links: int) -> Iterator[str]:
         yield f"the task asks for at least {_count(links, 'link')}"
 
 
-def _count(number: int, of: str) -> str:
-    return f"{number} {of}{'' if number == 1 else 's'}"
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
 def _read(path: Path) -> Design:
     try:
-        if path.stat().st_size > LARGEST:
-            raise LabError(f"{path} has more than {LARGEST} bytes; a design is a page of text")
+        if path.stat().st_size > MAX_FILE_SIZE:
+            raise LabError(f"{path} has more than {MAX_FILE_SIZE} bytes; a design should be a page of text")
         return read_design(path.read_text(encoding="utf-8-sig"))
     except FileNotFoundError:
         raise LabError(f"there is no file {path}; run the cell that begins %%writefile {path.name}") from None

@@ -1,4 +1,4 @@
-"""A gap in a program of a chapter: you write a few lines, and `%%gap` saves the file and checks it at once."""
+"""A gap in a program of a chapter: the student writes a few lines; `%%gap` saves the file and checks it at once."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from IPython.core.magic import register_cell_magic
 from chapters.support import gaps
 from lab.errors import LabError
 from lab.learning.gap_cells import is_empty, is_python, placeholder
-from lab.learning.progress_file import keep
+from lab.learning.progress_file import store_entry
 from lab.running.programs import stop_programs
 from lab.running.student_nodes import stop_nodes
 
 
 class GapError(LabError):
-    """The lines in a gap do not meet the task yet."""
+    """The lines in a gap do not solve the task yet."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Gap:
 
     Attributes:
         file: its name, unique in the course.
-        check: runs the file and returns a sentence on what it did; raises a LabError if the task is not met.
+        check: runs the file and returns a sentence on what it did; raises a LabError if the lines are wrong.
     """
 
     file: str
@@ -48,35 +48,35 @@ def expect(condition: object, *, seen: object, expected: str, next: str) -> None
 
 
 def not_yet(seen: object, expected: str, next: str) -> GapError:
-    """Return the error for lines that do not meet the task yet."""
+    """Return the error for lines that do not solve the task yet."""
     return GapError(f"not yet.\n  seen:     {seen}\n  expected: {expected}\n  next:     {next}")
 
 
 def read_gaps(chapter: str) -> tuple[Gap, ...]:
-    """Return the gaps of a chapter, such as `read_gaps("services")`, in the order of the chapter."""
+    """Return the gaps of a chapter in the order of its cells: `read_gaps("services")`."""
     return import_module(f"chapters.support.gaps.{chapter}").GAPS
 
 
 def find_gap(file: str) -> Gap:
     """Return the gap of a file.
 
-    Raises LabError when no chapter has one.
+    Raises LabError when no chapter has a gap in a file of this name.
     """
     known = {
         gap.file: gap for module in pkgutil.iter_modules(gaps.__path__) for gap in read_gaps(module.name)
     }
     if file not in known:
         raise LabError(
-            f"%%gap {file}: no chapter has a gap in a file of this name; there are {', '.join(known)}"
+            f"%%gap {file}: no chapter has a gap in a file of this name; the files with gaps are {', '.join(known)}"
         )
     return known[file]
 
 
 def write_and_check(file: str, program: str) -> None:
-    """Stop nodes and programs, save the program or definition, run its check and print the result.
+    """Stop all nodes and programs, save the cell's text to the file, run the gap's check and print the result.
 
     Raises:
-        GapError: the gap is empty, its lines are not Python, or they do not meet the task.
+        GapError: the gap is empty, its lines are not Python, or they do not solve the task.
         LabError: the file has no gap, or its program did not run.
     """
     file = file.strip()
@@ -85,21 +85,21 @@ def write_and_check(file: str, program: str) -> None:
     if is_empty(program):
         raise GapError(
             f"{file}: nothing is written yet. Replace `{placeholder(file)}` by your lines and run this cell again; "
-            "the solution is folded below it"
+            "click “Solution” below the cell to see a solution"
         )
     if is_python(file):
         _require_python(file, program)
     stop_nodes()
     stop_programs()
     try:
-        saw = gap.check()
+        summary = gap.check()
     except GapError as problem:
         raise GapError(f"{file}: {problem}") from None
     finally:
         stop_nodes()
         stop_programs()
-    keep("gaps", file, datetime.now().isoformat(timespec="seconds"))
-    print(f"✓ {file}: {saw}")
+    store_entry("gaps", file, datetime.now().isoformat(timespec="seconds"))
+    print(f"✓ {file}: {summary}")
 
 
 def _require_python(file: str, program: str) -> None:
@@ -111,5 +111,5 @@ def _require_python(file: str, program: str) -> None:
 
 
 if get_ipython() is not None:  # in a notebook
-    register: Any = register_cell_magic("gap")  # IPython's types know only methods of a shell
+    register: Any = register_cell_magic("gap")  # Any: IPython declares this type for methods only
     register(write_and_check)

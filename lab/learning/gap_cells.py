@@ -1,4 +1,4 @@
-"""The format of a gap and of its solution in the cells of a chapter."""
+"""Finds gaps and their solutions in the cells of a chapter, and fills the gaps."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import nbformat
 
 MAGIC = "%%gap "
 PLACEHOLDER = "raise NotImplementedError"
-IN_A_DEFINITION = "..."  # of .msg, .srv and .action files, and in a .yaml of parameters
+IN_A_DEFINITION = "..."  # the placeholder in .msg, .srv and .action files, and in .yaml files of parameters
 _GAP = re.compile(
     rf"^(?P<indent> *)# YOUR CODE HERE.*\n(?: *#.*\n)*(?P=indent)(?:{PLACEHOLDER}.*|{re.escape(IN_A_DEFINITION)})\n",
     re.MULTILINE,
@@ -18,7 +18,7 @@ _SOLUTION = re.compile(r"<details>.*?```\w+\n(?P<lines>.*?)```.*?</details>", re
 
 
 def is_python(file: str) -> bool:
-    """Whether the file of a gap is a program, not a definition of an interface or a file of parameters."""
+    """Whether the file of a gap is a Python program; otherwise it is an interface definition or a parameter file."""
     return file.endswith(".py")
 
 
@@ -45,9 +45,9 @@ def fill(program: str, lines: str) -> str:
 
 
 def solution(text: str) -> str:
-    """Return the folded lines in the Markdown cell below a gap.
+    """Return the lines of the folded solution, which is in the Markdown cell below a gap.
 
-    Raises ValueError when there are none.
+    Raises ValueError when the cell has no folded solution.
     """
     found = _SOLUTION.search(text)
     if not found:
@@ -56,7 +56,7 @@ def solution(text: str) -> str:
 
 
 def gaps_of(notebook: nbformat.NotebookNode) -> dict[str, tuple[str, str]]:
-    """Return the program and the solution of each gap of a chapter, by file."""
+    """Return the program and the solution of each gap of a chapter, by the gap's file."""
     return {
         cell.source.splitlines()[0].removeprefix(MAGIC).strip(): (
             cell.source.partition("\n")[2] + "\n",

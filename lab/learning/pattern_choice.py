@@ -1,4 +1,4 @@
-"""Questions, asked one after the other, that lead to the choice of topic, service or action."""
+"""A series of yes-or-no questions that leads to the choice of topic, service or action."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lab.errors import LabError
 
 @dataclass(frozen=True)
 class Step:
-    """A question whose "yes" decides for a pattern; `reason` says why."""
+    """A question; the answer "yes" means that `pattern` is the right one, and `reason` explains it."""
 
     question: str
     pattern: str
@@ -29,45 +29,45 @@ STEPS = (
     Step(
         "Progress: does somebody need to see how far it is?",
         "action",
-        "only an action sends feedback while it works. A service is silent until its response.",
+        "only an action sends feedback while it works. A service sends nothing until its response.",
     ),
     Step(
         "Duration: does it take so long that the caller needs to know whether it still runs?",
         "action",
-        "an action tells the status of its goal at any time. "
-        "If a few seconds of silence do no harm, answer no: the length alone does not decide.",
+        "an action publishes the status of its goal at any time. "
+        "If the caller can wait a few seconds without news, answer no: a long duration alone needs no action.",
     ),
     Step(
-        "Answer: does the caller need to know what came of it?",
+        "Answer: does the caller need to know the outcome?",
         "service",
-        "each request of a service gets its own response, and nothing needs a cancel or feedback.",
+        "each request to a service gets its own response, and you need neither a cancel nor feedback.",
     ),
 )
 OTHERWISE = Step(
     "",
     "topic",
-    "nobody needs an answer. The next message makes up for one that gets lost, and any node can subscribe.",
+    "nobody needs an answer. If a message is lost, the next one replaces it, and any node can subscribe.",
 )
 
 
 def choose_pattern() -> PatternChoice:
-    """Return the questions that lead from your situation to topic, service or action, to be shown in a cell.
+    """Return a series of questions that leads from your situation to topic, service or action.
 
     pattern = lab.choose_pattern()
     pattern                # shows the first question, with buttons
-    pattern.answer("no")   # the same without buttons
+    pattern.answer("no")   # answers it without the buttons
     """
     return PatternChoice()
 
 
 class PatternChoice:
-    """Yes-or-no questions: click, or Tab and Space, or `answer("yes")` where there are no widgets.
+    """Yes-or-no questions in a notebook: click a button, or call `answer("yes")` where there are no widgets.
 
-    The first yes decides; without one it is a topic.
+    The first "yes" decides the pattern. If every answer is "no", the pattern is a topic.
     """
 
     def __init__(self) -> None:
-        self._asked = 0  # number of questions answered with no
+        self._answered_no = 0  # number of questions
         self._decided = False
         self._note = ipywidgets.HTML()
         self._buttons = {word: ipywidgets.Button(description=word.capitalize()) for word in ("yes", "no")}
@@ -84,39 +84,39 @@ class PatternChoice:
         return decisive.pattern if decisive else None
 
     def answer(self, word: str) -> None:
-        """Answer the present question with "yes" or "no", and print what follows.
+        """Answer the current question with "yes" or "no", and print the next question or the pattern.
 
-        Raises LabError for another word, or when the pattern is decided already.
+        Raises LabError for another word, or when the pattern is already decided.
         """
         if word not in self._buttons:
-            raise LabError(f'{word!r} is no answer; write "yes" or "no"')
+            raise LabError(f'the answer {word!r} is not accepted; write "yes" or "no"')
         if self.pattern:
-            raise LabError(f"the pattern is decided: {self.pattern}; begin again with restart()")
+            raise LabError(f"the pattern is already decided: {self.pattern}; call restart() to begin again")
         self._take(word)
         print(self.text())
 
     def restart(self) -> None:
         """Begin again with the first question."""
-        self._asked, self._decided = 0, False
+        self._answered_no, self._decided = 0, False
         self._show()
 
     def text(self) -> str:
-        """Return the present question, or the pattern and its reason."""
+        """Return the current question, or the pattern and its reason."""
         decisive = self._decisive()
         if decisive is None:
-            return f"Question {self._asked + 1}. {STEPS[self._asked].question}"
+            return f"Question {self._answered_no + 1}. {STEPS[self._answered_no].question}"
         return f"{decisive.pattern.capitalize()}: {decisive.reason}"
 
     def _decisive(self) -> Step | None:
         if self._decided:
-            return STEPS[self._asked]
-        return OTHERWISE if self._asked == len(STEPS) else None
+            return STEPS[self._answered_no]
+        return OTHERWISE if self._answered_no == len(STEPS) else None
 
     def _take(self, word: str) -> None:
         if word == "yes":
             self._decided = True
         else:
-            self._asked += 1
+            self._answered_no += 1
         self._show()
 
     def _show(self) -> None:

@@ -9,41 +9,46 @@ import ipywidgets
 from IPython.display import display
 
 from lab.errors import LabError
-from lab.learning.progress_file import in_your_order, keep_letter, kept_letter
-from lab.learning.question import Question, read_question
+from lab.learning.question import (
+    Question,
+    read_question,
+    store_letter,
+    stored_letter,
+    with_shuffled_choices,
+)
 
 WIDTH = 80  # characters; Jupyter breaks longer lines in the middle of a word
 
 
 def predict(chapter: str, number: int) -> Prediction:
-    """Return a prediction of a chapter, with the choice made earlier, to be shown before its experiment.
+    """Return a prediction of a chapter, with the choice that was made earlier, to show before its experiment.
 
         prediction_1 = lab.predict("services", 1)
         prediction_1            # a cell that shows the question and its buttons
         prediction_1.require()  # the first line of the experiment
-        prediction_1.reply()    # a cell after it
+        prediction_1.reply()    # a cell after the experiment
 
     Raises LabError when the chapter has no prediction of that number.
     """
-    return Prediction(number, in_your_order(read_question(chapter, "PREDICTIONS", number)))
+    return Prediction(number, with_shuffled_choices(read_question(chapter, "PREDICTIONS", number)))
 
 
 class Prediction:
-    """A choice to make: click an answer, or call `choose("b")` where there are no widgets.
+    """A question before an experiment: click an answer, or call `choose("b")` where there are no widgets.
 
-    The choice is stored beside the notebook until it is changed or cleared; it survives a restart of the kernel.
+    The choice is stored beside the notebook, so it survives a restart of the kernel.
     """
 
     def __init__(self, number: int, question: Question) -> None:
         self.number = number
         self.question = question
         self._buttons = question.buttons()
-        self._buttons.value = kept_letter("predictions", question)
-        self._buttons.observe(lambda change: keep_letter("predictions", question, change["new"]), "value")
+        self._buttons.value = stored_letter("predictions", question)
+        self._buttons.observe(lambda change: store_letter("predictions", question, change["new"]), "value")
 
     @property
     def letter(self) -> str | None:
-        """The choice as it is now, or None."""
+        """The letter of the current choice; None without one."""
         return self._buttons.value
 
     def choose(self, letter: str) -> None:
@@ -55,27 +60,27 @@ class Prediction:
         self._buttons.value = letter
 
     def clear(self) -> None:
-        """Forget the choice."""
+        """Delete the choice."""
         self._buttons.value = None
 
     def require(self) -> None:
-        """Require a choice, as the first line of an experiment.
+        """Require a choice; an experiment calls it in its first line.
 
-        Raises LabError when there is none.
+        Raises LabError when nothing is chosen.
         """
         if self.letter is None:
-            raise LabError(self._wish())
+            raise LabError(self._request())
 
     def reply(self) -> None:
         """Print the feedback on the choice; without a choice, ask for one."""
         if self.letter is None:
-            print(self._wish())
+            print(self._request())
             return
         choice = self.question.choice(self.letter)
         print(f"You predicted {self.letter}: {choice.text}")
         print(fill(f"{'Right.' if choice.right else 'It went differently.'} {choice.why}", WIDTH))
 
-    def _wish(self) -> str:
+    def _request(self) -> str:
         return (
             f"Predict first: click {self.question.letters()} under Prediction {self.number}, "
             f"or run {self._call()} in a cell"
@@ -91,14 +96,14 @@ class Prediction:
     def _panel(self) -> ipywidgets.VBox:
         note = ipywidgets.HTML()
         clear = ipywidgets.Button(
-            description="Clear", tooltip="Forget my prediction", layout={"width": "auto"}
+            description="Clear", tooltip="Delete my prediction", layout={"width": "auto"}
         )
         clear.on_click(lambda _: self.clear())
 
-        def tell(_: dict | None = None) -> None:
+        def update_note(_: dict | None = None) -> None:
             chosen = f"You predict {self.letter}. Run the next cell."
             note.value = escape(chosen if self.letter else f"Choose {self.question.letters()}.")
 
-        self._buttons.observe(tell, "value")
-        tell()
+        self._buttons.observe(update_note, "value")
+        update_note()
         return ipywidgets.VBox([self._buttons, ipywidgets.HBox([note, clear])])

@@ -1,4 +1,4 @@
-"""The student's progress so far, by chapter and exercise."""
+"""Reads the student's progress in each chapter and exercise, and chooses the next step."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ from pathlib import Path
 
 from lab.learning.contents import CHAPTERS, Chapter, Exercise, read_contents
 from lab.learning.gap import read_gaps
-from lab.learning.progress_file import kept
+from lab.learning.progress_file import read_entries
 from lab.learning.question import Question
 from ros_runtime.self_checks import LastCheck, last_checks
 
 
 @dataclass(frozen=True)
 class Part:
-    """`done` of `of` items, with an optional suffix `also`."""
+    """How many items of one kind are done, of how many; `suffix` is appended when it is printed."""
 
     done: int
-    of: int
-    also: str = ""
+    total: int
+    suffix: str = ""
 
     def __str__(self) -> str:
-        return f"{self.done}/{self.of}{self.also}" if self.of else "–"
+        return f"{self.done}/{self.total}{self.suffix}" if self.total else "–"
 
 
 @dataclass(frozen=True)
 class ChapterProgress:
-    """Progress in one chapter; an exercise that was never checked has None."""
+    """Progress in one chapter; `exercises` has None for an exercise that was never checked."""
 
     chapter: Chapter
     parts: Mapping[str, Part]
@@ -42,17 +42,17 @@ class ChapterProgress:
     @property
     def read(self) -> bool:
         """Whether everything except the exercises is done."""
-        return all(part.done >= part.of for part in self.parts.values())
+        return all(part.done >= part.total for part in self.parts.values())
 
 
 def read_progress() -> list[ChapterProgress]:
-    """Read the progress stored beside chapters and exercises; one entry per chapter."""
+    """Return the progress in each chapter, as it is stored beside the chapters and the exercises."""
     checks = last_checks()
     return [_of_chapter(chapter, checks) for chapter in read_contents()]
 
 
 def next_step(chapters: Sequence[ChapterProgress]) -> tuple[str, Path]:
-    """Return the next step: a sentence that lacks its last word, the name of the notebook, and that notebook."""
+    """Return the next step: a notebook, and a sentence to which the caller appends that notebook's name."""
     if not any(chapter.begun for chapter in chapters):
         first = chapters[0].chapter
         return (
@@ -70,10 +70,10 @@ def next_step(chapters: Sequence[ChapterProgress]) -> tuple[str, Path]:
 
 def _of_chapter(chapter: Chapter, checks: Mapping[str, LastCheck]) -> ChapterProgress:
     questions = import_module(f"chapters.support.questions.{chapter.name}")
-    predicted = _choices(kept("predictions", CHAPTERS), questions.PREDICTIONS)
-    answered = _choices(kept("questions", CHAPTERS), questions.QUESTIONS)
+    predicted = _choices(read_entries("predictions", CHAPTERS), questions.PREDICTIONS)
+    answered = _choices(read_entries("questions", CHAPTERS), questions.QUESTIONS)
     gaps = read_gaps(chapter.name)
-    filled = kept("gaps", CHAPTERS)
+    filled = read_entries("gaps", CHAPTERS)
     return ChapterProgress(
         chapter,
         parts={
@@ -88,7 +88,7 @@ def _of_chapter(chapter: Chapter, checks: Mapping[str, LastCheck]) -> ChapterPro
 
 
 def _choices(chosen: Mapping[str, str], questions: Iterable[Question]) -> list[bool]:
-    """Return, for each answered question, whether the choice is right; choices whose text has changed do not count."""
+    """Return for each answered question whether the choice is right; a choice whose text has changed is left out."""
     return [
         choice.right
         for question in questions

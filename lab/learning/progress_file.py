@@ -3,64 +3,48 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from pathlib import Path
-from random import Random, randrange
+from random import randrange
 from typing import Literal
 
-from lab.learning.question import Question
 from lab.running.programs_folder import notebook_folder
 from ros_runtime.self_checks import entries_of, read_progress_file
 
-NAME = ".progress.json"  # hidden, as the files of tools are
+NAME = ".progress.json"  # hidden, like the files of other tools
 Kind = Literal["predictions", "questions", "gaps"]
 
 
-def kept(kind: Kind, folder: Path | None = None) -> dict[str, str]:
-    """Return the entries of one kind, such as chosen answers or times of filled gaps; `folder`: of the notebooks."""
+def read_entries(kind: Kind, folder: Path | None = None) -> dict[str, str]:
+    """Return the entries of one kind, such as the chosen answers or the times at which gaps were filled.
+
+    They are read from `folder`, by default the folder of the running notebook.
+    """
     return entries_of((folder or notebook_folder()) / NAME, kind)
 
 
-def keep(kind: Kind, key: str, value: str | None) -> None:
+def store_entry(kind: Kind, key: str, value: str | None) -> None:
     """Store a value under its key; None deletes the key."""
-    entries = kept(kind)
+    entries = read_entries(kind)
     entries.pop(key, None)
     if value is not None:
         entries[key] = value
-    _write({**_everything(), kind: entries})
+    _write({**_read_all(), kind: entries})
 
 
-def own_number() -> int:
-    """Return a random number that was drawn once for this folder of notebooks, so it differs between students."""
-    everything = _everything()
-    if not isinstance(number := everything.get("number"), int):
+def shuffle_seed() -> int:
+    """Return a random number that is drawn once for this folder of notebooks, so it differs between students."""
+    content = _read_all()
+    if not isinstance(number := content.get("number"), int):
         number = randrange(10**9)
-        _write({**everything, "number": number})
+        _write({**content, "number": number})
     return number
 
 
-def in_your_order(question: Question) -> Question:
-    """Shuffle the choices: the order differs between students and stays the same for one student."""
-    order = Random(f"{own_number()} {question.text}")
-    return replace(question, choices=tuple(order.sample(question.choices, len(question.choices))))
-
-
-def kept_letter(kind: Kind, question: Question) -> str | None:
-    """Return the letter chosen earlier; None without one, or if the text of that choice has changed since."""
-    text = kept(kind).get(question.text)
-    return next((letter for letter, choice in question.by_letter().items() if choice.text == text), None)
-
-
-def keep_letter(kind: Kind, question: Question, letter: str | None) -> None:
-    """Store the choice made for a question; None deletes it."""
-    keep(kind, question.text, None if letter is None else question.choice(letter).text)
-
-
-def _everything() -> dict:
+def _read_all() -> dict:
     return read_progress_file(notebook_folder() / NAME)
 
 
-def _write(everything: dict) -> None:
+def _write(content: dict) -> None:
     (notebook_folder() / NAME).write_text(
-        json.dumps(everything, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
+        json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
     )

@@ -18,12 +18,12 @@ ONE_LINE = "style='text-align: left; white-space: nowrap'"
 
 
 def show_progress() -> ProgressTable:
-    """Show the progress: predictions, quiz, gaps, the last self-check of each exercise, and a next step."""
+    """Return a table of the student's progress, with the last self-check of each exercise and the next step."""
     return ProgressTable(read_progress())
 
 
 class ProgressTable:
-    """A table in a notebook, lines of text elsewhere."""
+    """The progress as a table in a notebook, and as lines of text elsewhere."""
 
     def __init__(self, chapters: Sequence[ChapterProgress]) -> None:
         self.chapters = chapters
@@ -57,10 +57,10 @@ def _cells(row: ChapterProgress) -> Iterator[str]:
 
 
 def _bar(part: Part, what: str) -> str:
-    if not part.of:
+    if not part.total:
         return str(part)
-    label = f"{what}: {part.done} of {part.of}"
-    bar = f'<progress value="{part.done}" max="{part.of}" aria-label="{label}" style="width: 3em"></progress>'
+    label = f"{what}: {part.done} of {part.total}"
+    bar = f'<progress value="{part.done}" max="{part.total}" aria-label="{label}" style="width: 3em"></progress>'
     return f"{bar} {part}"
 
 
@@ -87,5 +87,5 @@ def _link(notebook: Path, words: str) -> str:
 
 
 def _relative(path: Path) -> str:
-    """The path relative to the notebook's folder, as Jupyter's links need it."""
+    """Return the path relative to the notebook's folder, because Jupyter's links need a relative path."""
     return Path(os.path.relpath(path)).as_posix()

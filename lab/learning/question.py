@@ -1,16 +1,18 @@
-"""A question with choices, as quizzes and predictions ask it in a notebook."""
+"""The questions of quizzes and predictions: how they look in a notebook, and where the student's choice is stored."""
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 from importlib import import_module
+from random import Random
 
 import ipywidgets
 from IPython.display import HTML, display
 
 from lab.errors import LabError
+from lab.learning.progress_file import Kind, read_entries, shuffle_seed, store_entry
 
 LETTERS = "abcdefgh"
 _STYLE = """<style>
@@ -23,7 +25,7 @@ _STYLE = """<style>
 
 @dataclass(frozen=True)
 class Choice:
-    """One of the answers to a question. `why` is shown when it is chosen, right or wrong."""
+    """One of the answers to a question; `why` explains why it is right or wrong, and is shown when it is chosen."""
 
     text: str
     why: str
@@ -42,30 +44,30 @@ class Question:
             raise ValueError(f"the question {self.text!r} needs exactly one right choice")
 
     def by_letter(self) -> dict[str, Choice]:
-        """Return the choices under the letters that they have in a notebook."""
+        """Return the choices by the letters under which a notebook shows them."""
         return dict(zip(LETTERS, self.choices, strict=False))
 
     def letters(self) -> str:
-        """Return the letters to choose from, such as "a, b or c"."""
+        """Return the letters in a sentence, such as "a, b or c"."""
         *others, last = self.by_letter()
         return f"{', '.join(others)} or {last}"
 
     def choice(self, letter: str) -> Choice:
-        """Return the choice of a letter.
+        """Return the choice with this letter.
 
-        Raises LabError when there is no such letter.
+        Raises LabError when the question has no such letter.
         """
         choices = self.by_letter()
         if letter not in choices:
-            raise LabError(f"{letter!r} is not a choice; they are {', '.join(choices)}")
+            raise LabError(f"{letter!r} is not a choice; the choices are {', '.join(choices)}")
         return choices[letter]
 
     def text_under(self, title: str) -> HTML:
-        """Show the question, without its choices."""
+        """Return the question as HTML below a title, without its choices."""
         return HTML(f"<p><b>{escape(title)}.</b> {in_html(self.text)}</p>{_STYLE}")
 
     def buttons(self) -> ipywidgets.ToggleButtons:
-        """Return a button for each choice, none of them pressed; Tab goes from one to the next, Space presses it."""
+        """Return a group of buttons, one for each choice, with none selected."""
         buttons = ipywidgets.ToggleButtons(
             options=[
                 (f"{letter}  {choice.text.replace('`', '')}", letter)
@@ -76,7 +78,7 @@ class Question:
         return buttons.add_class("course-choices")
 
     def show(self, panel: ipywidgets.Widget, call: str) -> None:
-        """Show the buttons; without widget support, show the choices and the `call` to type instead."""
+        """Show the panel with the buttons; without widget support, show the choices and the `call` to type instead."""
         rows = "".join(
             f"<li><b>{letter}</b> {in_html(choice.text)}</li>" for letter, choice in self.by_letter().items()
         )
@@ -90,11 +92,30 @@ def in_html(text: str) -> str:
 
 
 def read_question(chapter: str, kind: str, number: int) -> Question:
-    """Return a question of a chapter (`chapters/support/questions`); `kind` is "QUESTIONS" or "PREDICTIONS".
+    """Return a question from `chapters/support/questions`; `kind` is "QUESTIONS" or "PREDICTIONS".
 
-    Raises LabError when the chapter has no question of that number.
+    Raises LabError when the chapter has no question with that number.
     """
     questions = getattr(import_module(f"chapters.support.questions.{chapter}"), kind)
     if not 1 <= number <= len(questions):
-        raise LabError(f"there is no question {number} in {chapter!r}; it has 1 to {len(questions)}")
+        raise LabError(
+            f"there is no question {number} in {chapter!r}; its questions are 1 to {len(questions)}"
+        )
     return questions[number - 1]
+
+
+def with_shuffled_choices(question: Question) -> Question:
+    """Return the question with its choices in an order that differs between students but never changes for one."""
+    order = Random(f"{shuffle_seed()} {question.text}")
+    return replace(question, choices=tuple(order.sample(question.choices, len(question.choices))))
+
+
+def stored_letter(kind: Kind, question: Question) -> str | None:
+    """Return the letter chosen earlier; None if nothing was chosen, or if the text of that choice has changed."""
+    text = read_entries(kind).get(question.text)
+    return next((letter for letter, choice in question.by_letter().items() if choice.text == text), None)
+
+
+def store_letter(kind: Kind, question: Question, letter: str | None) -> None:
+    """Store the choice made for a question; None deletes it."""
+    store_entry(kind, question.text, None if letter is None else question.choice(letter).text)

@@ -1,20 +1,26 @@
-"""Quiz questions with immediate feedback and a reason for each choice."""
+"""Quiz questions, which explain each answer as soon as it is chosen."""
 
 from __future__ import annotations
 
 import ipywidgets
 from IPython.display import display
 
-from lab.learning.progress_file import in_your_order, keep_letter, kept_letter
-from lab.learning.question import Question, in_html, read_question
+from lab.learning.question import (
+    Question,
+    in_html,
+    read_question,
+    store_letter,
+    stored_letter,
+    with_shuffled_choices,
+)
 
 
 def quiz(chapter: str, number: int) -> Quiz:
-    """Return a question of a chapter, such as `quiz("services", 1)`.
+    """Return a question of a chapter: `quiz("services", 1)` is the first one of chapter 2.
 
-    Raises LabError when the chapter has no question of that number.
+    Raises LabError when the chapter has no question with that number.
     """
-    return Quiz(f"Question {number}", in_your_order(read_question(chapter, "QUESTIONS", number)))
+    return Quiz(f"Question {number}", with_shuffled_choices(read_question(chapter, "QUESTIONS", number)))
 
 
 class Quiz:
@@ -28,15 +34,15 @@ class Quiz:
         self.question = question
 
     def answer(self, letter: str) -> None:
-        """Print whether this choice is right, and why.
+        """Store this choice, and print whether it is right, and why.
 
         Raises LabError when there is no such letter.
         """
         print(self.mark(letter))
-        keep_letter("questions", self.question, letter)
+        store_letter("questions", self.question, letter)
 
     def mark(self, letter: str) -> str:
-        """Return the feedback on a choice as a sentence.
+        """Return a sentence that says whether a choice is right, and why.
 
         Raises LabError when there is no such letter.
         """
@@ -53,9 +59,9 @@ class Quiz:
         def mark(change: dict) -> None:
             if change["new"]:
                 verdict.value = in_html(self.mark(change["new"]))
-                keep_letter("questions", self.question, change["new"])
+                store_letter("questions", self.question, change["new"])
 
         buttons = self.question.buttons()
         buttons.observe(mark, "value")
-        buttons.value = kept_letter("questions", self.question)
+        buttons.value = stored_letter("questions", self.question)
         return ipywidgets.VBox([buttons, verdict])

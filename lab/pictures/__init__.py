@@ -1,1 +1,1 @@
-"""Draws what happened: robot, graph, sequences, plots."""
+"""Draws the robot, the graph, and what has happened: sequence diagrams, plots, time lines and films."""

@@ -1,4 +1,4 @@
-"""The last call or goal as a sequence diagram."""
+"""Draws the last call or goal as a sequence diagram."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ LABEL_LENGTH = 38  # characters that fit between two lifelines
 def draw_sequence(title: str = "What just happened") -> HTML:
     """Draw the last call or goal and all messages since then: requests solid, answers dashed, topics dotted.
 
-    Of a stream of feedback only the first and the last message are drawn.
+    If there are many feedback messages, only the first and the last one are drawn.
 
-    Raises LabError when nothing was called or sent yet.
+    Raises LabError when no service was called and no goal was sent yet.
     """
     messages = log.messages()
     if not messages:
-        raise LabError("there is nothing to draw yet: use lab.call() or lab.send_goal() first")
+        raise LabError("there is no call or goal to draw yet: use lab.call() or lab.send_goal() first")
     start = messages[0].time
     arrows = [
         replace(message, time=message.time - start, label=shorten(message.label, LABEL_LENGTH))
@@ -36,7 +36,7 @@ def draw_sequence(title: str = "What just happened") -> HTML:
 
 
 def _without_repetition(messages: Sequence[Message]) -> list[Message]:
-    """The messages, where the middle part of each stream is replaced by one that counts it."""
+    """Return the messages, with the middle of each stream replaced by one message with the number of those left out."""
     kept: list[Message] = []
     for (repeats, _sender), group in groupby(messages, key=lambda message: (message.repeats, message.sender)):
         stream = list(group)

@@ -1,4 +1,4 @@
-"""The figure that plots are drawn on: white, with the same fonts and colours in all plots."""
+"""The figures of all plots: white, with the same fonts and colours, embedded as SVG."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PIXELS_PER_INCH = 96
-LEFT, TOP, BOTTOM = 0.85, 0.42, 0.5  # inches: y labels, title, x axis
-# From the palette of Okabe and Ito, safe for colour-blind readers; no text in a figure relies on colours.
+LEFT, TOP, BOTTOM = 0.85, 0.42, 0.5  # inches, for the y labels, the title and the x axis
+# From the palette of Okabe and Ito for colour-blind readers; figures can be understood without their colours.
 BLUE: str = "#0072B2"
 VERMILION: str = "#B34700"
 GREY: str = "#555555"
@@ -29,13 +29,13 @@ _STYLE = {
     "axes.spines.right": False,
     "axes.grid": True,
     "grid.color": "#e6e6e6",
-    "svg.fonttype": "none",  # keep text as text, not as paths: it can be searched, copied and enlarged
+    "svg.fonttype": "none",  # text stays text, which can be searched and copied
 }
 
 
 @contextmanager
 def sheet(width: float, height: float, title: str) -> Iterator[Figure]:
-    """A figure of so many inches with a title, in the style of the lab."""
+    """Make a figure with a title in the style of the lab; `width` and `height` are in inches."""
     import matplotlib
     from matplotlib.figure import Figure  # takes a while to import, and most notebooks draw nothing
 
@@ -49,7 +49,7 @@ def sheet(width: float, height: float, title: str) -> Iterator[Figure]:
 def panel(
     width: float, height: float, title: str, *, left: float = LEFT, right: float = 0.25, above: float = 0.0
 ) -> Iterator[tuple[Figure, Axes]]:
-    """A figure with one panel of so many inches; `left`, `right`, `above`: inches around it, for texts."""
+    """Make a figure with one panel; its `width` and `height` and the margins for texts around it are in inches."""
     whole_width, whole_height = left + width + right, TOP + above + height + BOTTOM
     with sheet(whole_width, whole_height, title) as page:
         yield (
@@ -63,7 +63,7 @@ def panel(
 def annotate(
     axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, float], **more: Any
 ) -> None:
-    """Write a text `offset` points beside a place, also outside of the panel; in it, $ and _ are no mathematics."""
+    """Write a text at an `offset` (points) from a place, even outside of the panel; $ and _ are printed as they are."""
     axes.annotate(
         text,
         at,

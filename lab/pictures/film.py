@@ -1,4 +1,4 @@
-"""A film of the robot, stored in the notebook: filmed live, or made from recorded messages."""
+"""Makes films of the robot, which are stored in the notebook: live, or from recorded messages."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ from sensor_msgs.msg import JointState
 
 from lab.client import topics
 from lab.pictures.labels import Mark
-from lab.pictures.picture import HEIGHT, WIDTH, as_mujoco, figure, take_present_posture
+from lab.pictures.picture import HEIGHT, WIDTH, as_mujoco, figure, set_current_posture
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.film import Reel
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 RATE = 12.5  # frames a second
-MAX_DURATION = 60.0  # s, which are about 5 MB in the notebook
+MAX_DURATION = 60.0  # s; such a film takes about 5 MB in the notebook
 
 
 def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: str = "track") -> HTML:
-    """Film the robot for `seconds` from now on, drawn from its own messages; also write it to `file`, a .webp.
+    """Film the robot for `seconds` from now on, drawn from its own messages; also write the film to `file`, a .webp.
 
-    It blocks that long, and the first frame is taken a second or two after the call: start a long motion before it. For
-    a short event, such as a fall, use `record_robot()` and then the recording's `film()`. Without OpenGL only the
-    caption and the reason are shown.
+    The call blocks until the film ends. Its first frame is one or two seconds after the call, so start a long motion
+    before it. For a short event, such as a fall, use `record_robot()` and then the recording's `film()`. Without OpenGL
+    you get the caption of the film and the reason why there is none.
 
     Raises:
         NoRobotError: no robot is running.
@@ -45,7 +45,7 @@ def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: 
         began = time.monotonic()
         for frame in range(_frames(seconds)):
             time.sleep(max(0.0, began + frame / RATE - time.monotonic()))
-            take_present_posture(body)
+            set_current_posture(body)
             yield
 
     return _film(postures, words, lambda: f"{words}, to {topics.pose()}", camera, file, topics.scene())
@@ -63,9 +63,9 @@ def film_of_messages(
     camera: str,
     file: str | Path | None,
 ) -> HTML:
-    """Film the robot from 0 to `seconds` from messages with their times (s); poses between two are interpolated.
+    """Film the robot from 0 to `seconds` from messages with their times (s); poses between messages are interpolated.
 
-    The words of the film name the marks, and how far the robot has come.
+    The film's alternative text names the marks, and how far the robot is from its start at the end.
 
     Raises ValueError when the film would last longer than 60 s, or there is no such camera.
     """
@@ -79,19 +79,19 @@ def film_of_messages(
     words += f"; it ends {math.dist((begin.x, begin.y), (end.x, end.y)):.2f} m from where it began"
 
     def postures(body: Humanoid) -> Iterator[None]:
-        return take_postures(body, np.arange(count) / RATE / slow_motion, odometry, joints, objects)
+        return set_postures(body, np.arange(count) / RATE / slow_motion, odometry, joints, objects)
 
     return _film(postures, words, lambda: words, camera, file, scene)
 
 
-def take_postures(
+def set_postures(
     body: Humanoid,
     at: np.ndarray,
     odometry: Sequence[tuple[float, Odometry]],
     joints: Sequence[tuple[float, JointState]],
     objects: Mapping[str, Sequence[tuple[float, PoseStamped]]],
 ) -> Iterator[None]:
-    """Put a humanoid and its objects where they were at each of these times (s), and yield after each."""
+    """Set the posture of a humanoid and the poses of its objects to each of these times (s); yield after each time."""
     poses = _interpolated(at, [(t, as_mujoco(message.pose.pose)) for t, message in odometry])
     angles = _interpolated(at, [(t, message.position) for t, message in joints])
     places = [body.model.joint(name).qposadr[0] for name in joints[0][1].name]
@@ -122,7 +122,7 @@ def _film(
     file: str | Path | None,
     scene: str,
 ) -> HTML:
-    """Draw a frame for each posture in turn; `caption` is called after the last one."""
+    """Draw a frame for each posture; `caption` is called after the last frame."""
     body = Humanoid(scene)
     try:
         reel = Reel(body, WIDTH, HEIGHT, camera=camera, rate=RATE)
@@ -141,7 +141,7 @@ def _film(
 
 
 def _interpolated(at: np.ndarray, samples: Sequence[tuple[float, Any]]) -> np.ndarray:
-    """Interpolate samples to other times; one row per time."""
+    """Interpolate samples at other times; the result has one row for each time."""
     times = [t for t, _ in samples]
     columns = np.array([values for _, values in samples]).T
     return np.stack([np.interp(at, times, column) for column in columns], axis=1)

@@ -1,4 +1,4 @@
-"""Recorded walks to a goal, filmed beside each other, with the goals' statuses and capture points."""
+"""Films recorded walks to a goal beside each other, with the goals' statuses and capture points."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from PIL import Image, ImageDraw
 from lab.client import topics
 from lab.errors import LabError
 from lab.pictures.figure import BLUE, GREY, VERMILION
-from lab.pictures.film import MAX_DURATION, RATE, take_postures
+from lab.pictures.film import MAX_DURATION, RATE, set_postures
 from lab.pictures.lettering import font
 from lab.pictures.picture import figure
 from lab.pictures.recorded_goal import RecordedGoal
@@ -26,20 +26,21 @@ from robot_sim.views.view import View
 from ros_runtime.message_constants import RobotMode, name_of
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
-WIDTH, HEIGHT, ABOVE, BELOW = 330, 330, 30, 66  # px: of a picture, and of the texts above and below it
-LEGEND, DOT = 26, 6  # px
-BEFORE = 0.4  # s before the goal is sent
+WIDTH, HEIGHT, ABOVE, BELOW = 330, 330, 30, 66  # px, of a picture, and for the texts above and below it
+LEGEND, DOT_RADIUS = 26, 6  # px
+LEAD_TIME = 0.4  # s of the film before the goal is sent
 GRAVITY = 9.81  # m/s²
-ENDED = {"SUCCEEDED": "#007A5E", "ABORTED": VERMILION, "CANCELED": VERMILION}
+STATUS_COLOURS = {"SUCCEEDED": "#007A5E", "ABORTED": VERMILION, "CANCELED": VERMILION}
 
 
 def film_beside(recordings: Mapping[str, Recording], *, camera: str = "side") -> HTML:
-    """Film recorded walks to a goal beside each other, from the moment when each goal was sent.
+    """Film recorded walks to a goal beside each other, each from the moment when its goal was sent.
 
         lab.film_beside({"at once": one, "after settling": other})
 
     Each picture shows the goal's status and the robot's mode. Two dots on the floor show the goal and the *capture
-    point*, above which the pelvis could come to rest. Without OpenGL you get the words of the film and the reason.
+    point*, above which the pelvis could come to rest. Without OpenGL you get a description of the film and the reason
+    why there is none.
 
     Raises:
         LabError: a recording has no goal with a pose.
@@ -63,7 +64,7 @@ def film_beside(recordings: Mapping[str, Recording], *, camera: str = "side") ->
 
 @dataclass(frozen=True)
 class _Walk:
-    """A recorded walk to a place; times are in s of its recording."""
+    """A recorded walk to a place (x, y in frame odom); times are in s since its recording began."""
 
     name: str
     recording: Recording
@@ -78,24 +79,24 @@ class _Walk:
         base = min(odometry, key=lambda pair: abs(pair[0] - goal.sent))[1].pose.pose
         place = goal.place(base)
         if place is None:
-            raise LabError(f"{name}: the goal has no pose, so there is no place to film the way to")
+            raise LabError(f"{name}: the goal's message has no pose, so there is no walk to a place to film")
         return cls(name, recording, goal, place, (base.position.x, base.position.y))
 
     @property
     def begin(self) -> float:
-        return max(0.0, self.goal.sent - BEFORE)
+        return max(0.0, self.goal.sent - LEAD_TIME)
 
     @property
     def seconds(self) -> float:
         return self.recording.seconds - self.begin
 
     def frames(self, after: np.ndarray, camera: str) -> list[Image.Image]:
-        """A picture for each time (s) after the beginning; the last one stays when the recording is over."""
+        """Return a picture for each time (s) after the beginning; after the recording's end, repeat the last one."""
         at = np.minimum(self.begin + after, self.recording.seconds)
         body = Humanoid(topics.scene())
         view = View(body, WIDTH, HEIGHT, shadows=False)
         try:
-            postures = take_postures(
+            postures = set_postures(
                 body, at, self.recording.messages("odom"), self.recording.messages("joint_states"), {}
             )
             return [self._frame(view, camera, t) for t, _ in zip(at, postures, strict=True)]
@@ -103,7 +104,7 @@ class _Walk:
             view.close()
 
     def capture_point(self, t: float) -> tuple[float, float]:
-        """Where on the floor the pelvis could come to rest, (x, y) in frame odom."""
+        """Return the point on the floor above which the pelvis could come to rest, (x, y) in frame odom."""
         x, y, height, forwards, heading = (
             float(np.interp(t, *self.recording.values(quantity)))
             for quantity in ("x", "y", "height", "speed", "heading")
@@ -112,7 +113,7 @@ class _Walk:
         return x + ahead * math.cos(heading), y + ahead * math.sin(heading)
 
     def past_the_goal(self, t: float) -> float:
-        """How far (m) the pelvis is past the goal, in the direction from the start to it; negative before it."""
+        """Return how far (m) the pelvis is past the goal, along the line from the start; negative before the goal."""
         x, y = (float(np.interp(t, *self.recording.values(quantity))) for quantity in ("x", "y"))
         way = math.dist(self.start, self.place)
         return (
@@ -139,9 +140,9 @@ class _Walk:
         draw = ImageDraw.Draw(seen)
         for (x, y), colour, flat in ((self.place, BLUE, 0.45), (self.capture_point(t), VERMILION, 1.0)):
             right, down = view.pixel_of((x, y, 0.0))
-            size = DOT / flat
+            size = DOT_RADIUS / flat
             draw.ellipse(
-                (right - size, down - DOT * flat, right + size, down + DOT * flat),
+                (right - size, down - DOT_RADIUS * flat, right + size, down + DOT_RADIUS * flat),
                 fill=colour,
                 outline="white",
             )
@@ -150,7 +151,7 @@ class _Walk:
         draw.text((8, 6), self.name, font=font(15, bold=True), fill="black")
         draw.text((WIDTH - 8, 8), f"{t - self.goal.sent:.1f} s", font=font(13), fill=GREY, anchor="ra")
         status, below = self.goal.status_at(t), ABOVE + HEIGHT
-        draw.text((8, below + 6), status, font=font(19, bold=True), fill=ENDED.get(status, GREY))
+        draw.text((8, below + 6), status, font=font(19, bold=True), fill=STATUS_COLOURS.get(status, GREY))
         draw.text(
             (WIDTH - 8, below + 9), self.mode_at(t), font=font(15, bold=True), fill="black", anchor="ra"
         )
@@ -168,7 +169,7 @@ def _beside(pictures: tuple[Image.Image, ...]) -> Image.Image:
     for number, picture in enumerate(pictures):
         image.paste(picture, (number * (WIDTH + 8), 0))
     draw, x, y = ImageDraw.Draw(image), 8, pictures[0].height
-    for colour, text in ((BLUE, "goal"), (VERMILION, "capture point: there the pelvis could come to rest")):
+    for colour, text in ((BLUE, "goal"), (VERMILION, "capture point: where the pelvis could come to rest")):
         draw.ellipse((x, y + 6, x + 10, y + 16), fill=colour)
         draw.text((x + 16, y + 2), text, font=font(13), fill="black")
         x += 36 + round(draw.textlength(text, font=font(13)))

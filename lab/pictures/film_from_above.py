@@ -1,4 +1,4 @@
-"""A recorded trip to a point, seen from above: path, phases, bearing and what happened on the way."""
+"""Films a recorded walk to a point from above, with path, phases, bearing, and the moments that were marked."""
 
 from __future__ import annotations
 
@@ -24,25 +24,25 @@ from robot_sim.views.film import save_frames
 from ros_runtime.angles import wrap
 
 WIDTH = 600  # px
-LOWEST, HIGHEST = 150, 420  # px, of the floor
-ABOVE, BELOW = 62, 30  # px, of the texts
-FINER = 2  # times as fine is it drawn, for smooth lines
-MARGIN = 0.4  # m of floor around everything
-WEDGE = 0.45  # m, the radius of the bearing's wedge
-FLASH, NEWS = 0.8, 2.5  # s that a moment flashes, and that its label stays
+MIN_HEIGHT, MAX_HEIGHT = 150, 420  # px, of the floor
+ABOVE, BELOW = 62, 30  # px, for the texts above and below the floor
+OVERSAMPLING = 2  # the floor is drawn at this multiple of its size and scaled down, for smooth lines
+MARGIN = 0.4  # m of floor around the path and the goal
+WEDGE_RADIUS = 0.45  # m, of the wedge that shows the bearing
+FLASH_DURATION, LABEL_DURATION = 0.8, 2.5  # s, of a mark
 COLOURS = (BLUE, VERMILION, "#007A5E", "#8A4F7D", GREY)
-BODY = ((0.14, 0.0), (0.04, 0.16), (-0.08, 0.16), (-0.08, -0.16), (0.04, -0.16))  # m, its nose first
+BODY = ((0.14, 0.0), (0.04, 0.16), (-0.08, 0.16), (-0.08, -0.16), (0.04, -0.16))  # m, from its front
 
 
 def film_from_above(recording: Recording, *, reach: float = 0.0, title: str = "The trip from above") -> HTML:
-    """Film the way to the last goal of a recording, as seen from above.
+    """Film the walk to the last goal of a recording from above.
 
-    The path has the colour of the goal's phase, which is the `status` of its feedback. The wedge at the robot is the
-    bearing, from where it looks to where the goal is; the circle around the goal has the radius `reach`, in m. What the
-    notebook did, marked with `recording.mark()`, flashes.
+    The colour of the path shows the goal's phase, which is `status` in its feedback. A wedge at the robot shows the
+    bearing, the angle from the robot's heading to the goal. A circle around the goal has the radius `reach`, in m.
+    Moments that were marked with `recording.mark()` flash.
 
     Raises:
-        LabError: there is no goal with a pose and feedback with a `status`.
+        LabError: the recording has no goal with a pose whose feedback has a `status`.
         ValueError: the film would last longer than 60 s.
     """
     if recording.seconds > MAX_DURATION:
@@ -57,7 +57,7 @@ def film_from_above(recording: Recording, *, reach: float = 0.0, title: str = "T
 
 @dataclass(frozen=True)
 class _Trip:
-    """The recorded quantities at the times of the frames (s), and the goal's phases and events."""
+    """The recorded positions and headings at the times of the frames (s), the goal and the marks."""
 
     at: np.ndarray
     xs: np.ndarray
@@ -72,9 +72,9 @@ class _Trip:
         goal = recording.goal()
         base = recording.messages("odom")[0][1].pose.pose
         place = goal.place(base)
-        if place is None or not any(hasattr(told, "status") for _, told in goal.feedback):
+        if place is None or not any(hasattr(message, "status") for _, message in goal.feedback):
             raise LabError(
-                "the last goal has no pose, or no feedback with a `status`, so there is no trip to film"
+                "there is no walk to film: the last goal has no pose, or its feedback has no `status`"
             )
         at = np.arange(max(1, round(recording.seconds * RATE))) / RATE
         xs, ys, headings = (np.interp(at, *recording.values(name)) for name in ("x", "y", "heading"))
@@ -82,23 +82,23 @@ class _Trip:
 
     @property
     def phases(self) -> list[tuple[float, str]]:
-        """When each phase began, and its name."""
-        told = [(t, feedback.status) for t, feedback in self.goal.feedback]
-        return [told[0], *(later for earlier, later in pairwise(told) if earlier[1] != later[1])]
+        """The beginning (s) and the name of each phase."""
+        statuses = [(t, feedback.status) for t, feedback in self.goal.feedback]
+        return [statuses[0], *(later for earlier, later in pairwise(statuses) if earlier[1] != later[1])]
 
     @property
     def colours(self) -> dict[str, str]:
         return dict(zip(dict.fromkeys(phase for _, phase in self.phases), COLOURS * 9, strict=False))
 
     def phase_at(self, t: float) -> str | None:
-        told = self.goal.feedback_at(t)
-        return None if told is None else told.status
+        message = self.goal.feedback_at(t)
+        return None if message is None else message.status
 
     def distance(self, frame: int) -> float:
         return math.dist((self.xs[frame], self.ys[frame]), self.place)
 
     def bearing(self, frame: int) -> float:
-        """From where the robot looks to where the goal is, rad; to the left is positive."""
+        """Return the angle from the robot's heading to the goal, in rad; to the left is positive."""
         direction = math.atan2(self.place[1] - self.ys[frame], self.place[0] - self.xs[frame])
         return wrap(direction - self.headings[frame])
 
@@ -113,22 +113,22 @@ class _Trip:
 
 @dataclass(frozen=True)
 class _Floor:
-    """The part of the floor that is seen: its left upper corner (m, frame odom) and its scale."""
+    """The visible part of the floor: its left upper corner (m, frame odom) and its scale."""
 
     left: float
     upper: float
-    scale: float  # px of the drawing for a metre
+    scale: float  # px of the drawing per metre
     height: int  # px of the drawing
-    reach: float  # m
+    reach: float  # m, the radius of the circle around the goal
 
     @classmethod
     def around(cls, trip: _Trip, reach: float) -> _Floor:
         xs = [trip.xs.min(), trip.xs.max(), trip.place[0] - reach, trip.place[0] + reach]
         ys = [trip.ys.min(), trip.ys.max(), trip.place[1] - reach, trip.place[1] + reach]
         wide, deep = max(xs) - min(xs) + 2 * MARGIN, max(ys) - min(ys) + 2 * MARGIN
-        scale = min(WIDTH / wide, HIGHEST / deep) * FINER
-        height = max(LOWEST * FINER, round(deep * scale))
-        left = (min(xs) + max(xs)) / 2 - WIDTH * FINER / scale / 2
+        scale = min(WIDTH / wide, MAX_HEIGHT / deep) * OVERSAMPLING
+        height = max(MIN_HEIGHT * OVERSAMPLING, round(deep * scale))
+        left = (min(xs) + max(xs)) / 2 - WIDTH * OVERSAMPLING / scale / 2
         return cls(left, (min(ys) + max(ys)) / 2 + height / scale / 2, scale, height, reach)
 
     def frames(self, trip: _Trip) -> list[Image.Image]:
@@ -141,24 +141,30 @@ class _Floor:
             colour = GREY if phase is None else trip.colours[phase]
             if frame:
                 before = self._px(trip.xs[frame - 1], trip.ys[frame - 1])
-                path.line((*before, *here), fill=colour, width=3 * FINER)
+                path.line((*before, *here), fill=colour, width=3 * OVERSAMPLING)
             shown.append(self._frame(paper.copy(), trip, frame, colour))
         return shown
 
     def _empty(self, trip: _Trip) -> Image.Image:
-        """The floor with a line each half metre, the goal and its circle."""
-        paper = Image.new("RGB", (WIDTH * FINER, self.height), "#f7f7f7")
+        """Draw the floor with a line every half metre, the goal and its circle."""
+        paper = Image.new("RGB", (WIDTH * OVERSAMPLING, self.height), "#f7f7f7")
         draw = ImageDraw.Draw(paper)
         for metre in np.arange(math.floor(self.left), self.left + paper.width / self.scale, 0.5):
             draw.line(
-                (self._px(metre, 0)[0], 0, self._px(metre, 0)[0], self.height), fill="#e2e2e2", width=FINER
+                (self._px(metre, 0)[0], 0, self._px(metre, 0)[0], self.height),
+                fill="#e2e2e2",
+                width=OVERSAMPLING,
             )
         for metre in np.arange(math.floor(self.upper - self.height / self.scale), self.upper, 0.5):
             draw.line(
-                (0, self._px(0, metre)[1], paper.width, self._px(0, metre)[1]), fill="#e2e2e2", width=FINER
+                (0, self._px(0, metre)[1], paper.width, self._px(0, metre)[1]),
+                fill="#e2e2e2",
+                width=OVERSAMPLING,
             )
-        self._circle(draw, self._px(*trip.place), self.reach * self.scale, outline=GREY, width=2 * FINER)
-        self._circle(draw, self._px(*trip.place), 5 * FINER, fill="black")
+        self._circle(
+            draw, self._px(*trip.place), self.reach * self.scale, outline=GREY, width=2 * OVERSAMPLING
+        )
+        self._circle(draw, self._px(*trip.place), 5 * OVERSAMPLING, fill="black")
         return paper
 
     def _frame(self, paper: Image.Image, trip: _Trip, frame: int, colour: str) -> Image.Image:
@@ -166,7 +172,9 @@ class _Floor:
         draw = ImageDraw.Draw(paper, "RGBA")
         x, y = trip.xs[frame], trip.ys[frame]
         arc = [heading + bearing * part / 24 for part in range(25)]
-        wedge = [self._px(x + WEDGE * math.cos(angle), y + WEDGE * math.sin(angle)) for angle in arc]
+        wedge = [
+            self._px(x + WEDGE_RADIUS * math.cos(angle), y + WEDGE_RADIUS * math.sin(angle)) for angle in arc
+        ]
         draw.polygon([self._px(x, y), *wedge], fill=(*bytes.fromhex(colour[1:]), 70))
         turned = (
             (
@@ -176,11 +184,13 @@ class _Floor:
             for a, b in BODY
         )
         draw.polygon([self._px(*corner) for corner in turned], fill=colour, outline="white")
-        last = next((mark for mark in reversed(trip.marks) if mark.time <= t < mark.time + NEWS), None)
-        if last is not None and t < last.time + FLASH:
-            size = (0.2 + 0.5 * (t - last.time) / FLASH) * self.scale
-            self._circle(draw, self._px(x, y), size, outline=VERMILION, width=4 * FINER)
-        return self._with_texts(paper.resize((WIDTH, self.height // FINER)), trip, frame, last)
+        last = next(
+            (mark for mark in reversed(trip.marks) if mark.time <= t < mark.time + LABEL_DURATION), None
+        )
+        if last is not None and t < last.time + FLASH_DURATION:
+            size = (0.2 + 0.5 * (t - last.time) / FLASH_DURATION) * self.scale
+            self._circle(draw, self._px(x, y), size, outline=VERMILION, width=4 * OVERSAMPLING)
+        return self._with_texts(paper.resize((WIDTH, self.height // OVERSAMPLING)), trip, frame, last)
 
     def _with_texts(self, floor: Image.Image, trip: _Trip, frame: int, last: Mark | None) -> Image.Image:
         image = Image.new("RGB", (WIDTH, ABOVE + floor.height + BELOW), "white")
@@ -201,7 +211,7 @@ class _Floor:
         below = ABOVE + floor.height
         if last is not None:
             draw.text((10, below + 6), last.label, font=font(14, bold=True), fill=VERMILION)
-        half = round(self.scale / FINER / 2)
+        half = round(self.scale / OVERSAMPLING / 2)
         draw.line((WIDTH - 10 - half, below + 8, WIDTH - 10, below + 8), fill="black", width=2)
         draw.text((WIDTH - 10, below + 11), "0.5 m", font=font(12), fill="black", anchor="ra")
         return image

@@ -1,4 +1,4 @@
-"""The two gates of an executor at any moment of a run: is the callback's group free, and is a thread free?"""
+"""Draws what a callback waits for at any moment of a run: a free callback group, and then a free thread."""
 
 from __future__ import annotations
 
@@ -19,33 +19,38 @@ from ros_runtime.drawing.svg import svg
 from ros_runtime.drawing.xml_text import escape
 
 WIDTH, ROW, ABOVE = 700, 56, 58  # px
-NAME, GROUP, THREAD, RUNS = 12, 190, 430, 600  # px, where the parts of a row begin
+NAME_X, GROUP_X, THREAD_X, RUNS_X = 12, 190, 430, 600  # px, where the parts of a row begin
 MOMENTS = 41  # on the slider
-OPEN = "#007A5E"
+FREE_COLOUR = "#007A5E"
 
 
 def draw_gates(
     node: StudentNode, groups: Mapping[str, str], *, threads: int, title: str = "The two gates"
 ) -> ipywidgets.VBox:
-    """Draw the threads of a node as `draw_threads` does, and a slider that shows both gates at a moment of the run.
+    """Draw the threads of a node like `draw_threads`, with a slider that shows both gates at a moment of the run.
 
         lab.draw_gates(node, {"beat": "default group", "look_around": "default group"}, threads=4)
 
-    `groups` says in which mutually exclusive group each callback is. The slider begins in the middle of the longest
-    callback.
+    A callback passes two gates before it runs: its group and a thread must be free. `groups` maps each callback to its
+    mutually exclusive group. The slider begins in the middle of the longest callback.
 
-    Raises LabError when the node has printed no line for `draw_threads`, or one of a callback that has no group.
+    Raises LabError when the node has printed no line for `draw_threads`, or one of a callback that is not in `groups`.
     """
     steps = read_steps(node.log())
     missing = sorted({step.callback for step in steps} - groups.keys())
     if not steps or missing:
         raise LabError(
-            f"{node.file.name}: " + (f"say the group of {', '.join(missing)}" if steps else "no steps")
+            f"{node.file.name}: "
+            + (
+                f"`groups` has no group for {', '.join(missing)}"
+                if steps
+                else "the node has printed no lines about its callbacks; let it run for a moment"
+            )
         )
     zero = steps[0].time
     spans = [
         Span(span.lane, span.callback, span.begin - zero, span.end - zero, span.is_over)
-        for span in spans_of(steps, max(steps[-1].time, node.life().ended or time.monotonic()))
+        for span in spans_of(steps, max(steps[-1].time, node.history().ended or time.monotonic()))
     ]
     longest = max(spans, key=lambda span: span.end - span.begin)
     moments = np.linspace(0.0, max(span.end for span in spans), MOMENTS)
@@ -70,7 +75,7 @@ class _Gates:
     moment: float
 
     def inside(self, group: str) -> str | None:
-        """The callback that keeps a group, because it runs or awaits; None if the group is free."""
+        """Return the callback that occupies a group because it runs or awaits; None if the group is free."""
         now = (span.callback for span in self._now() if self.groups[span.callback] == group)
         return next(now, None)
 
@@ -86,12 +91,12 @@ class _Gates:
         words: list[str] = []
         parts = [
             f'<text x="{x}" y="48" font-size="12" fill="{GREY}">{gate}</text>'
-            for x, gate in ((GROUP, "first gate: its group"), (THREAD, "second gate: a thread"))
+            for x, gate in ((GROUP_X, "first gate: its group"), (THREAD_X, "second gate: a thread"))
         ]
         for row, name in enumerate(names):
-            drawn, told = self._row(name, ABOVE + row * ROW)
+            drawn, sentence = self._row(name, ABOVE + row * ROW)
             parts += drawn
-            words.append(told)
+            words.append(sentence)
         title = f"The gates at {self.moment:.2f} s"
         height = ABOVE + ROW * len(names) + 8
         return svg(parts, width=WIDTH, height=height, title=title, words=" ".join(words))
@@ -102,21 +107,24 @@ class _Gates:
         held = [span.lane for span in self._now() if span.callback == name]
         if held:
             place = "awaits, on no thread" if held[-1] == NO_THREAD else "runs"
-            shown = [*_name(name, y), _pill(GROUP, y, 410, f"{place}; it keeps its group, the {group}", BLUE)]
+            shown = [
+                *_name(name, y),
+                _pill(GROUP_X, y, 410, f"{place}; it keeps its group, the {group}", BLUE),
+            ]
             return shown, f"{name} {place} and keeps the {group}."
         first = f"{group}: {keeper} is in" if keeper else f"{group}: free"
         second = f"{max(free, 0)} of {self.threads} threads free"
         is_open = keeper is None and free > 0
         return [
             *_name(name, y),
-            _pill(GROUP, y, 230, first, VERMILION if keeper else OPEN),
-            _pill(THREAD, y, 160, second, OPEN if free > 0 else VERMILION),
-            f'<text x="{RUNS}" y="{y + 25}" font-weight="bold">{"may run" if is_open else "waits"}</text>',
+            _pill(GROUP_X, y, 230, first, VERMILION if keeper else FREE_COLOUR),
+            _pill(THREAD_X, y, 160, second, FREE_COLOUR if free > 0 else VERMILION),
+            f'<text x="{RUNS_X}" y="{y + 25}" font-weight="bold">{"may run" if is_open else "waits"}</text>',
         ], f"{name}, if it is due, {'may run' if is_open else 'waits'}: {first}, {second}."
 
 
 def _name(name: str, y: float) -> list[str]:
-    return [f'<text x="{NAME}" y="{y + 25}">{escape(name)}</text>']
+    return [f'<text x="{NAME_X}" y="{y + 25}">{escape(name)}</text>']
 
 
 def _pill(x: float, y: float, width: float, text: str, colour: str) -> str:

@@ -1,4 +1,4 @@
-"""The state machine of a goal, on which the last goal lights up state by state, as it did in the run."""
+"""Draws the state machine of a goal, in which the states of the last goal light up one after the other."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ from ros_runtime.record.client_events import (
 
 WIDTH, HEIGHT = 700, 286  # px
 BOX = (128, 44)  # px
-LIT = "#D6E8F5"
-PLACES = {  # of each box's middle, px
+LIT_COLOUR = "#D6E8F5"
+PLACES = {  # the middle of each state's box, px
     "REJECTED": (84, 234),
     "ACCEPTED": (236, 90),
     "EXECUTING": (404, 90),
@@ -46,26 +46,26 @@ CHANGES = (
     ("CANCELING", "ABORTED"),
     ("CANCELING", "CANCELED"),
 )
-CAUSES = {  # of changes, and where the middle of each stands, px
+CAUSES = {  # what makes a goal change its state, with the middle of the text, px
     "succeed()": (512, 72),
     "abort()": (486, 134),
     "cancel accepted": (458, 162),
     "canceled()": (508, 252),
 }
-HOLD = 2.0  # s that the last state stays lit before it begins again
+HOLD_DURATION = 2.0  # s that the last state stays lit before the animation begins again
 
 
 def draw_goal_states(title: str = "The states of the last goal") -> HTML:
-    """Draw the states that a goal can have; those of the last goal light up one by one, at the speed of the run.
+    """Draw the states that a goal can have; the states of the last goal light up one by one, at the speed of the run.
 
-    Where nothing moves, on paper or for readers who want no motion, all of them are lit, with their times.
+    On paper, and for readers who have turned off animations, all of them are lit, with their times.
 
     Raises LabError when no goal was sent yet.
     """
     kinds = (GoalSent, GoalAnswered, StatusSeen, FeedbackReceived, ResultReceived)
     goal = last_goal(event for kind in kinds for event in log.all(kind))
     if goal is None:
-        raise LabError("there is nothing to draw yet: use lab.send_goal() first")
+        raise LabError("there is no goal to draw yet: use lab.send_goal() first")
     times = {"SENT": 0.0} | {status: at - goal.sent for status, at in _reached(goal)}
     parts = [_style(times, key := f"goal{crc32(repr((title, times)).encode()):x}")]
     parts += [_arrow(change, times, key) for change in CHANGES]
@@ -73,12 +73,12 @@ def draw_goal_states(title: str = "The states of the last goal") -> HTML:
         f'<text x="{x}" y="{y}" text-anchor="middle">{cause}</text>' for cause, (x, y) in CAUSES.items()
     ]
     parts += [_box(status, times, key) for status in ("SENT", *PLACES)]
-    told = ", then ".join(f"{status} at {at:.2f} s" for status, at in times.items())
-    return HTML(svg(parts, width=WIDTH, height=HEIGHT, title=title, words=f"{title}: {told}."))
+    words = ", then ".join(f"{status} at {at:.2f} s" for status, at in times.items())
+    return HTML(svg(parts, width=WIDTH, height=HEIGHT, title=title, words=f"{title}: {words}."))
 
 
 def _reached(goal: RecordedGoal) -> list[tuple[str, float]]:
-    """The states in their order; a quick one, which the status topic has skipped, is added."""
+    """Return the goal's states in order; EXECUTING is added if it was too short for the status topic."""
     reached = [(status, at) for at, status in goal.statuses]
     names = [status for status, _ in reached]
     if "ACCEPTED" in names and "EXECUTING" not in names and names[-1] in ("SUCCEEDED", "ABORTED"):
@@ -87,8 +87,8 @@ def _reached(goal: RecordedGoal) -> list[tuple[str, float]]:
 
 
 def _style(times: dict[str, float], key: str) -> str:
-    """The animation of each state: dim until its time, then lit."""
-    whole = max(times.values()) + HOLD
+    """Return the CSS animation of each state, which is dim until its time and lit after it."""
+    whole = max(times.values()) + HOLD_DURATION
     rules = [
         f"@keyframes {key}-{status} {{ 0%, {100 * at / whole:.2f}% {{ opacity: 0 }} "
         f"{100 * at / whole + 0.01:.2f}%, 100% {{ opacity: 1 }} }}\n"
@@ -110,14 +110,14 @@ def _box(status: str, times: dict[str, float], key: str) -> str:
     if status not in times:
         return dim
     return (
-        f'{dim}<g class="{key}-{status}">{frame} fill="{LIT}" stroke="{BLUE}" stroke-width="2.5"/>'
+        f'{dim}<g class="{key}-{status}">{frame} fill="{LIT_COLOUR}" stroke="{BLUE}" stroke-width="2.5"/>'
         f'{text} font-weight="bold">{number}{label}</text>'
         f'<text x="{x}" y="{y + 15}" text-anchor="middle" font-size="12">{times[status]:.2f} s</text></g>'
     )
 
 
 def _arrow(change: tuple[str, str], times: dict[str, float], key: str) -> str:
-    """A change of state; blue, and lit with its end, if the goal made it."""
+    """Draw a change of state; if the goal made it, the arrow turns blue together with the state that it leads to."""
     before, after = change
     line = _between(PLACES.get(before, SENT), PLACES[after])
     dim = _line(line, GREY, 1.2)
@@ -127,7 +127,7 @@ def _arrow(change: tuple[str, str], times: dict[str, float], key: str) -> str:
 
 
 def _between(start: tuple[int, int], end: tuple[int, int]) -> tuple[float, float, float, float]:
-    """A line from the edge of one box to the edge of another: sideways, or down within a column."""
+    """Return a line from one box to another: sideways, or down if the boxes are in one column."""
     (x1, y1), (x2, y2) = start, end
     if x1 == x2:
         return x1, y1 + BOX[1] / 2, x2, y2 - BOX[1] / 2 - 7

@@ -1,4 +1,4 @@
-"""The live ROS graph as a picture: publishers on the left, topics in the middle, subscribers on the right."""
+"""Draws the live ROS graph: publishers on the left, topics in the middle, subscribers on the right."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ HEADINGS = ("publishes", "topic, type", "subscribes")
 
 
 def draw_graph(*names: str, title: str = "The graph now") -> HTML:
-    """Draw topics with their publishers and subscribers; where incompatible QoS keeps messages away, the line is red.
+    """Draw topics with their publishers and subscribers; a subscription with an incompatible QoS has a red line.
 
     Without names it draws all topics except /rosout and /parameter_events, which every node has.
 
-    Raises LabError when no node has a topic of these names, or any topic at all.
+    Raises LabError when a topic has no publisher and no subscription, or when there are no topics at all.
     """
     topics = topics_in_graph(*names)
     if not topics:
         raise LabError(
-            "there is nothing to draw: no node publishes or subscribes to a topic; use lab.start_robot() first"
+            "there is no topic to draw: no node publishes or subscribes to one; use lab.start_robot() first"
         )
     rows = [
         Row(

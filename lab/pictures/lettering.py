@@ -1,4 +1,4 @@
-"""Text on the frames of films."""
+"""The font of texts in films."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from PIL import ImageFont
 
 @cache
 def font(size: int, *, bold: bool = False) -> ImageFont.FreeTypeFont:
-    """The font of the plots, so many px high: it comes with matplotlib and has the signs that a message may hold."""
+    """Return the font of the plots in this size (px); matplotlib brings it, and it has all characters of a message."""
     import matplotlib  # takes a while to import, and most notebooks draw nothing
 
     name = "DejaVuSans-Bold.ttf" if bold else "DejaVuSans.ttf"

@@ -1,4 +1,4 @@
-"""A live view of the robot in the notebook."""
+"""Shows a live view of the robot in the notebook."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from PIL import Image
 
 from lab.client import topics
 from lab.errors import NoRobotError
-from lab.pictures.picture import HEIGHT, WIDTH, take_present_posture
+from lab.pictures.picture import HEIGHT, WIDTH, set_current_posture
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.view import View
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
-FRAMES = 12.0  # a second, at most
-SHARE = 0.4  # highest share of time spent drawing, so that the notebook gets the rest
-FIRST_FRAME_WITHIN = 20.0  # s
+MAX_FRAME_RATE = 12.0  # Hz
+MAX_DRAWING_SHARE = 0.4  # of the time; the rest is left for the notebook's other threads
+FIRST_FRAME_TIMEOUT = 20.0  # s
 
 _running: _LiveView | None = None
 
 
 def watch_robot(camera: str = "track") -> ipywidgets.Image | ipywidgets.Label:
-    """Show a live view of the robot below this cell until `stop_watching()`; a call in another cell moves it there.
+    """Show a live view of the robot below this cell until `stop_watching()`, or until another cell calls this.
 
-    It is drawn in the notebook's process from the robot's own messages, so watching does not slow the robot down.
+    The view is drawn in the notebook's process from the robot's own messages, so it does not slow the robot down.
     `camera` is "track", "side" or "front". Without OpenGL you get a text that says why there is no picture.
 
     Raises:
@@ -46,7 +46,7 @@ def watch_robot(camera: str = "track") -> ipywidgets.Image | ipywidgets.Label:
 
 
 def stop_watching() -> None:
-    """End the live view; its last frame stays."""
+    """Stop the live view; its last frame stays visible."""
     global _running
     if _running is not None:
         _running.end()
@@ -54,7 +54,7 @@ def stop_watching() -> None:
 
 
 class _LiveView:
-    """A widget and the thread that draws into it: an OpenGL context belongs to one thread."""
+    """A widget, and the thread that draws into it; one thread does all drawing, because OpenGL requires that."""
 
     def __init__(self, camera: str) -> None:
         self.widget = ipywidgets.Image(format="jpeg", width=WIDTH, height=HEIGHT)
@@ -65,10 +65,10 @@ class _LiveView:
         self._thread = threading.Thread(target=self._draw_until_stopped, name="live view", daemon=True)
 
     def begin(self) -> None:
-        """Wait for the first frame; raises the error that prevented it."""
+        """Start the thread and wait for the first frame; raise the error that prevented it."""
         self._thread.start()
-        if not self._begun.wait(FIRST_FRAME_WITHIN):
-            self._problem = NoOpenGLError(f"nothing was drawn within {FIRST_FRAME_WITHIN:g} s")
+        if not self._begun.wait(FIRST_FRAME_TIMEOUT):
+            self._problem = NoOpenGLError(f"nothing was drawn within {FIRST_FRAME_TIMEOUT:g} s")
         if self._problem is not None:
             self._stop.set()
             raise self._problem
@@ -94,16 +94,16 @@ class _LiveView:
         while not self._stop.is_set():
             began = time.monotonic()
             try:
-                take_present_posture(body)
+                set_current_posture(body)
                 self.widget.value = _jpeg(view.picture(self._camera))
-            except NoRobotError:  # the robot may come back
+            except NoRobotError:  # the robot may be started again
                 pass
             except ValueError as error:
                 self._problem = error
                 self._stop.set()
             self._begun.set()
             spent = time.monotonic() - began
-            self._stop.wait(max(1 / FRAMES - spent, spent * (1 / SHARE - 1)))
+            self._stop.wait(max(1 / MAX_FRAME_RATE - spent, spent * (1 / MAX_DRAWING_SHARE - 1)))
 
 
 def _jpeg(pixels) -> bytes:  # (height, width, 3) uint8

@@ -1,4 +1,4 @@
-"""A picture of the robot in its present posture, and of what is around it."""
+"""Draws the robot in its current posture, with the objects around it."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ WIDTH, HEIGHT = 480, 360  # px
 
 
 def show_robot(camera: str = "track") -> HTML:
-    """Draw the robot from its own messages, odom and joint_states; camera "track", "side" or "front".
+    """Draw the robot from its messages on odom and joint_states; `camera` is "track", "side" or "front".
 
     Without OpenGL you get the caption of the picture and the reason why there is none.
     """
     words = f"The robot: {topics.mode()} at {topics.pose()}"
     body = _body(topics.scene())
-    take_present_posture(body)
+    set_current_posture(body)
     try:
         pixels = snapshot(body, WIDTH, HEIGHT, camera=camera)
     except NoOpenGLError as error:
@@ -40,7 +40,7 @@ def show_robot(camera: str = "track") -> HTML:
 
 
 def figure(image: bytes, kind: str, words: str, caption: str = "", *, width: int = WIDTH) -> HTML:
-    """Embed an image ("png", "webp", "svg+xml") in the notebook, `width` px wide, with an alternative text."""
+    """Embed an image of a `kind` ("png", "webp", "svg+xml") in the notebook; `words` is its alternative text."""
     data = base64.b64encode(image).decode()
     below = f"<figcaption>{escape(caption)}</figcaption>" if caption else ""
     return HTML(
@@ -51,14 +51,14 @@ def figure(image: bytes, kind: str, words: str, caption: str = "", *, width: int
 
 @cache
 def _body(scene: str) -> Humanoid:
-    """A humanoid for rendering only: it is never stepped."""
+    """Return a humanoid that is only drawn, never simulated."""
     return Humanoid(scene)
 
 
-def take_present_posture(body: Humanoid) -> None:
-    """Set the pose and joints of a humanoid, and its objects, from the last messages.
+def set_current_posture(body: Humanoid) -> None:
+    """Set the pose and joints of a humanoid, and the poses of its objects, from the last messages.
 
-    Raises NoRobotError when there are none.
+    Raises NoRobotError when no messages arrive.
     """
     odometry: Odometry = topics.odometry()
     joints: JointState = topics.latest("joint_states")
@@ -72,6 +72,6 @@ def take_present_posture(body: Humanoid) -> None:
 
 
 def as_mujoco(pose: Pose) -> tuple[float, ...]:
-    """Position and orientation, as MuJoCo has them: w first."""
+    """Return position and orientation in MuJoCo's order, which has w before x, y, z."""
     p, q = pose.position, pose.orientation
     return p.x, p.y, p.z, q.w, q.x, q.y, q.z

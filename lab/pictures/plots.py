@@ -1,4 +1,4 @@
-"""Plots of what a notebook has computed: curves in one panel, and the means of recordings."""
+"""Plots values that a notebook has computed: curves in one panel, and the means of recordings."""
 
 from __future__ import annotations
 
@@ -24,25 +24,25 @@ def plot_curves(
     title: str = "Curves",
     factor: float | None = None,
 ) -> HTML:
-    """Draw up to three curves, each from its values along the x and the y axis; `curves` maps names to both.
+    """Draw up to three curves; `curves` maps each name to its values on the x axis and on the y axis.
 
         times, metres = recording.values("x")
         lab.plot_curves({"straight ahead": (times, metres)}, "time, s", "x, m")
 
-    With a `factor`, a band shows where the last curve is missed by no more than that factor; then all curves need the
-    same values along x.
+    With a `factor`, a grey band shows which values differ from the last curve by at most this factor. Then all curves
+    need the same values on the x axis.
 
-    Raises LabError when there is no curve or more than three, or one has no points or lists of unequal length.
+    Raises LabError when there is no curve or more than three, or when a curve has no points or lists of unequal length.
     """
     if not 1 <= len(curves) <= len(STYLES):
-        raise LabError(f"{len(curves)} curves; plot_curves draws one to {len(STYLES)} in a panel")
+        raise LabError(f"there are {len(curves)} curves; plot_curves draws one to {len(STYLES)}")
     lines = {name: (np.asarray(xs, float), np.asarray(ys, float)) for name, (xs, ys) in curves.items()}
     words = [f"{title}."]
     with panel(6.6, 3.0, title) as (page, axes):
         for (name, (xs, ys)), (line, colour) in zip(lines.items(), STYLES, strict=False):
             if not len(xs) or xs.shape != ys.shape:
                 raise LabError(
-                    f"{name}: {len(xs)} values for {x} and {len(ys)} for {y}; both need the same, at least one"
+                    f"{name} has {len(xs)} values for {x} and {len(ys)} for {y}; both need equally many, at least one"
                 )
             axes.plot(xs, ys, line, color=colour, linewidth=1.6, label=name)
             words += [
@@ -61,7 +61,7 @@ def plot_curves(
 
 
 def _stay(xs: np.ndarray, is_inside: np.ndarray) -> str:
-    """From where to where values stay inside the band, the longest time that they do."""
+    """Describe the longest range of x in which the values are inside the band."""
     ends = np.flatnonzero(np.diff([False, *is_inside, False]))
     stays = [(xs[begin], xs[end - 1]) for begin, end in zip(ends[::2], ends[1::2], strict=True)]
     if not stays:
@@ -71,14 +71,14 @@ def _stay(xs: np.ndarray, is_inside: np.ndarray) -> str:
 
 
 def plot_means(recordings: Mapping[str, Recording], x: str, y: str, *, title: str = "Means") -> HTML:
-    """Draw a point for each recording, at its means of two quantities; `recordings` maps names to recordings.
+    """Draw a point for each recording, at the means of two quantities; `recordings` maps names to recordings.
 
         lab.plot_means({"standing": first, "0.3 m/s": second}, "speed", "power")
 
-    Raises LabError when there is no recording or no such quantity, or nothing of it was recorded.
+    Raises LabError when there is no recording or no such quantity, or when no value of the quantity was recorded.
     """
     if not recordings:
-        raise LabError("there is nothing to plot: make recordings with lab.record_robot() first")
+        raise LabError("there is no recording to plot: make recordings with lab.record_robot() first")
     points = {name: (recording.mean(x), recording.mean(y)) for name, recording in recordings.items()}
     across, up = (f"mean {name}, {quantity_named(name).unit}" for name in (x, y))
     with panel(4.8, 3.0, title, right=1.2) as (page, axes):  # on the right, the name of the last point
@@ -88,5 +88,5 @@ def plot_means(recordings: Mapping[str, Recording], x: str, y: str, *, title: st
         axes.set_xlabel(across)
         axes.set_ylabel(up)
         axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))
-        told = [f"{name}: {across} {a:.2f}, {up} {b:.2f}." for name, (a, b) in points.items()]
-        return as_html(page, " ".join([f"{title}.", *told]))
+        sentences = [f"{name}: {across} {a:.2f}, {up} {b:.2f}." for name, (a, b) in points.items()]
+        return as_html(page, " ".join([f"{title}.", *sentences]))

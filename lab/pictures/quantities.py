@@ -1,4 +1,4 @@
-"""The quantities that can be plotted, with their units and how they are read from messages."""
+"""The quantities that can be plotted: their units, and how they are read from messages."""
 
 from __future__ import annotations
 
@@ -16,12 +16,13 @@ from ros_runtime.angles import yaw_of
 class Quantity:
     """A measured quantity in `unit`, read from the messages of `topic`.
 
-    The plot's axis spans at least `least_range`, so that noise does not look like a motion; `is_angle`: wraps at ±π.
+    The plot's axis spans at least `min_range`, so that noise does not look like a motion. `is_angle` means that the
+    values wrap around at ±π.
     """
 
     topic: str
     unit: str
-    least_range: float
+    min_range: float
     read: Callable[[Any], float]
     is_angle: bool = False
 
@@ -57,17 +58,17 @@ QUANTITIES = {
 
 
 def quantity_named(name: str) -> Quantity:
-    """Return a quantity by its name; a joint's name stands for its position.
+    """Return a quantity by its name; the name of a joint stands for its position.
 
-    Raises LabError, which lists the names, when there is none.
+    Raises LabError when there is no such quantity; the message lists the names.
     """
     if name in ACTUATED_JOINTS:
         unit = "m" if name.endswith(FINGERS) else "rad"
         return Quantity("joint_states", unit, 0.2, lambda states: states.position[states.name.index(name)])
     if name not in QUANTITIES:
-        there_are = ", ".join(f'"{known}" ({quantity.unit})' for known, quantity in QUANTITIES.items())
+        known = ", ".join(f'"{each}" ({quantity.unit})' for each, quantity in QUANTITIES.items())
         raise LabError(
-            f"nothing called {name!r} is recorded; there are: {there_are}, and each joint by its name, "
+            f"there is no quantity {name!r}; the quantities are {known}, and the position of each joint by its name, "
             'such as "l_elbow" (rad)'
         )
     return QUANTITIES[name]

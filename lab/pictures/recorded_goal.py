@@ -1,4 +1,4 @@
-"""A goal as it was recorded: where it led, how its status changed, and what its feedback said."""
+"""A recorded goal, with its changes of status and its feedback."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ from ros_runtime.record.event import Event
 
 @dataclass
 class RecordedGoal:
-    """A goal of the notebook; times are in s on the axis of its events.
+    """A goal that the notebook has sent; all times are in s, like those of its events.
 
     Attributes:
-        sent: when the notebook sent it.
+        sent: when the notebook sent the goal.
         request: the goal message.
-        statuses: when the notebook learned each new status, and its name; "REJECTED" is no status of ROS.
+        statuses: each new status with the time at which the notebook received it; "REJECTED" is not a status of ROS.
         feedback: the feedback messages with their times.
     """
 
@@ -39,17 +39,20 @@ class RecordedGoal:
     feedback: list[tuple[float, Any]] = field(default_factory=list)
 
     def status_at(self, t: float) -> str:
-        """The last status known at a time; "SENT" before the first one."""
+        """Return the last status received by a time; "SENT" before the first status."""
         known = bisect_right([at for at, _ in self.statuses], t)
         return self.statuses[known - 1][1] if known else "SENT"
 
     def feedback_at(self, t: float) -> Any | None:
-        """The last feedback message received by a time, or None."""
+        """Return the last feedback message received by a time, or None."""
         known = bisect_right([at for at, _ in self.feedback], t)
         return self.feedback[known - 1][1] if known else None
 
     def place(self, base: Pose) -> tuple[float, float] | None:
-        """Where it leads, (x, y) in frame odom, if the robot's pose was `base` then; None for a goal without a pose."""
+        """Return the goal's position, (x, y) in frame odom; None for a goal without a pose.
+
+        `base` is the robot's pose at the time of the goal.
+        """
         target = next((each for each in _fields(self.request) if isinstance(each, PoseStamped)), None)
         if target is None:
             return None
@@ -65,7 +68,7 @@ class RecordedGoal:
 
 
 def last_goal(events: Iterable[Event]) -> RecordedGoal | None:
-    """Return the goal that was sent last, or None."""
+    """Return the goal that was sent last, with its events; None if no goal was sent."""
     goal, name = None, ""
     for event in sorted(events, key=lambda event: event.t):
         if isinstance(event, GoalSent):
@@ -83,7 +86,7 @@ def last_goal(events: Iterable[Event]) -> RecordedGoal | None:
 
 
 def _reach(goal: RecordedGoal, t: float, status: str) -> None:
-    """Add a status that is new: the topic repeats it, and may say it before or after the answer does."""
+    """Add a status unless it is known: the status topic repeats it, before or after the response that implies it."""
     if status not in [known for _, known in goal.statuses]:
         goal.statuses.append((t, status))
 

@@ -1,4 +1,4 @@
-"""A slider below a picture that is drawn anew for each value."""
+"""Shows a slider below a picture, which is drawn again for each value of the slider."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from IPython.display import HTML
 def slide(
     name: str, values: Sequence[float], draw: Callable[[float], HTML], *, start: float
 ) -> ipywidgets.VBox:
-    """Show the picture that `draw` makes of a value, and a slider that chooses among `values`; it begins at `start`.
+    """Show the picture that `draw` returns for a value, and a slider to choose one of `values`; it begins at `start`.
 
     lab.slide("shortest, m", (0.0, 0.2, 1.0), draw, start=0.2)
     """

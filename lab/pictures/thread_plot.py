@@ -1,4 +1,4 @@
-"""Which callback ran on which thread from when to when, drawn from the lines that a program printed."""
+"""Draws which callback ran on which thread and when, from the lines that a program has printed."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from lab.running.student_nodes import StudentNode
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-WIDTH, LANE = 6.6, 0.42  # inches: of the time axis, and the height of a thread
-LEGEND = 0.25  # inches, above the lanes
+WIDTH, LANE = 6.6, 0.42  # inches, the length of the time axis, and the height of a thread's lane
+LEGEND = 0.25  # inches, the height of the legend above the lanes
 NO_THREAD = "awaiting, on no thread"
 COLOURS = (BLUE, VERMILION, "#007A5E", "#8A4F7D", GREY)
 TIME = "s since the first line (system clock)"
@@ -31,7 +31,7 @@ _LINE = re.compile(
 
 
 class Step(NamedTuple):
-    """A line of the program: at `time` (s) a callback begins, awaits, resumes or ends on a thread."""
+    """A line that the program has printed: at `time` (s) a callback begins, awaits, resumes or ends on a thread."""
 
     time: float
     thread: str
@@ -41,7 +41,7 @@ class Step(NamedTuple):
 
 @dataclass(frozen=True)
 class Span:
-    """A callback from `begin` to `end` (s), on the lane of its thread or, while it awaits, on `NO_THREAD`."""
+    """A part of a callback, from `begin` to `end` (s); its lane is its thread or, while it awaits, `NO_THREAD`."""
 
     lane: str
     callback: str
@@ -51,15 +51,16 @@ class Span:
 
 
 def draw_threads(node: StudentNode, *, title: str = "Which callback ran on which thread") -> HTML:
-    """Draw each thread of a node as a lane, with its callbacks from their begin to their end.
+    """Draw a lane for each thread of a node, with the callbacks that ran on it.
 
-    The program prints a line for each step of a callback, with the time in s of `time.monotonic()` and the thread's
-    name:
+    The program must print a line for each step of a callback: the time in s of `time.monotonic()`, the thread's name,
+    the callback's name and a verb.
 
         1234.5678 MainThread beat begins
 
-    The verbs are begins, ends, and for a coroutine awaits and resumes. A callback that awaits holds no thread; it has
-    a lane of its own. A callback that never ended is drawn until the node ended, or until now.
+    The verbs are "begins" and "ends", and for a coroutine also "awaits" and "resumes". A callback that awaits occupies
+    no thread, so it is drawn on a lane of its own. A callback without an end is drawn until the node ended, or until
+    now.
 
     Raises LabError when the node has printed no such line.
     """
@@ -67,15 +68,15 @@ def draw_threads(node: StudentNode, *, title: str = "Which callback ran on which
     if not steps:
         raise LabError(
             f"{node.file.name} has printed no line like “1234.5678 MainThread beat begins”: call trace() or use "
-            "traced() in its callbacks, and let it run for a moment"
+            "traced() in the node's callbacks, and let the node run for a moment"
         )
     return plot_spans(
-        spans_of(steps, max(steps[-1].time, node.life().ended or time.monotonic())), title=title
+        spans_of(steps, max(steps[-1].time, node.history().ended or time.monotonic())), title=title
     )
 
 
 def plot_spans(spans: Sequence[Span], *, title: str, cursor: float | None = None) -> HTML:
-    """Draw spans on the lanes of their threads, with a line at `cursor`, in s since the first of them began."""
+    """Draw spans on the lanes of their threads, with a vertical line at `cursor`, in s since the first span began."""
     zero, last = min(span.begin for span in spans), max(span.end for span in spans)
     lanes = _lanes(spans)
     colours = dict(zip(dict.fromkeys(span.callback for span in spans), COLOURS * 9, strict=False))
@@ -99,15 +100,15 @@ def plot_spans(spans: Sequence[Span], *, title: str, cursor: float | None = None
 
 
 def read_steps(log: str) -> list[Step]:
-    """Return the steps that a program printed, in order of time; other lines are ignored."""
+    """Return the steps in a program's output, in order of time; other lines are ignored."""
     found = (Step(float(line[1]), line[2], line[3], line[4]) for line in _LINE.finditer(log))
     return sorted(found, key=lambda step: step.time)
 
 
 def spans_of(steps: Iterable[Step], until: float) -> list[Span]:
-    """Combine steps into spans; an open span ends at `until`.
+    """Combine steps into spans; a span without an end ends at `until`.
 
-    A coroutine may resume on another thread, so steps are matched by the callback's name only.
+    A coroutine may resume on another thread, so "awaits" and "resumes" are matched by the callback's name only.
     """
     spans: list[Span] = []
     running: dict[tuple[str, str], float] = {}
@@ -163,16 +164,16 @@ def _draw_legend(axis: Axes, colours: dict[str, str]) -> None:
 
 
 def _in_words(title: str, spans: Sequence[Span], lanes: Sequence[str], zero: float) -> str:
-    told = [f"{title}."]
+    sentences = [f"{title}."]
     for lane in lanes:
         here = [span for span in spans if span.lane == lane]
-        told.append(f"{lane}: " + "; ".join(_several(name, here, zero) for name in _names(here)) + ".")
+        sentences.append(f"{lane}: " + "; ".join(_several(name, here, zero) for name in _names(here)) + ".")
     for name in _names(spans):
         begins = [span.begin for span in spans if span.callback == name and span.lane != NO_THREAD]
         if len(begins) > 2:
             longest = max(later - earlier for earlier, later in pairwise(begins))
-            told.append(f"Longest time from one {name} to the next: {longest:.2f} s.")
-    return " ".join(told)
+            sentences.append(f"Longest time from one {name} to the next: {longest:.2f} s.")
+    return " ".join(sentences)
 
 
 def _names(spans: Iterable[Span]) -> list[str]:

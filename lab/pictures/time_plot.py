@@ -1,4 +1,4 @@
-"""Quantities over time: one panel each, with labelled moments above them."""
+"""Plots quantities over time: one panel for each, with labelled moments above the panels."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ from lab.pictures.labels import ROW, Mark, overhang, rows_of
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-WIDTH, HEIGHT, SPACE = 6.6, 1.6, 0.18  # inches: of a panel, and between two
-FEW = 40  # up to this number of values, each is also drawn as a point
+WIDTH, HEIGHT, SPACE = 6.6, 1.6, 0.18  # inches, of a panel, and between two panels
+MAX_DRAWN_POINTS = 40  # a curve of at most this many values also has points
 TIME = "s since the recording began (system clock)"
 
 
 class Curve(NamedTuple):
-    """Values of a quantity (in `unit`) at the given times (s); its panel shows at least `least_range`."""
+    """Values of a quantity (in `unit`) at the given times (s); its panel shows at least `min_range`."""
 
     name: str
     unit: str
-    least_range: float
+    min_range: float
     times: np.ndarray
     values: np.ndarray
 
 
 class Area(NamedTuple):
-    """A time from `begin` to `end` (s) that is coloured in all panels."""
+    """A period from `begin` to `end` (s) that is coloured in all panels."""
 
     name: str
     begin: float
@@ -49,7 +49,7 @@ def draw_panels(
 ) -> HTML:
     """Draw curves below each other over the same `seconds`, with `marks` (solid) and `changes` of the mode (dotted).
 
-    `compare` has functions of the time to draw, dashed, in the first panel; `areas` are coloured.
+    `compare` has functions of the time, which are drawn dashed in the first panel; `areas` are coloured.
     """
     flags = sorted([*marks, *changes])
     scale = WIDTH / seconds
@@ -78,16 +78,22 @@ def draw_panels(
 
 def _draw(panel: Axes, curve: Curve, seconds: float) -> None:
     panel.axhline(0, color=GREY, linewidth=0.8)
-    panel.plot(curve.times, curve.values, ".-" if len(curve.times) <= FEW else "-", color=BLUE, linewidth=1.5)
+    panel.plot(
+        curve.times,
+        curve.values,
+        ".-" if len(curve.times) <= MAX_DRAWN_POINTS else "-",
+        color=BLUE,
+        linewidth=1.5,
+    )
     panel.set_xlim(0, seconds)
     low, high = panel.get_ylim()
-    missing = max(0.0, curve.least_range - (high - low)) / 2
+    missing = max(0.0, curve.min_range - (high - low)) / 2
     panel.set_ylim(low - missing, high + missing)
     panel.set_ylabel(f"{curve.name}, {curve.unit}")
 
 
 def _draw_comparison(panel: Axes, name: str, function: Callable[[float], float], seconds: float) -> None:
-    """Draw a function without changing the axis limits, which the robot's curve has set."""
+    """Draw a function within the axis limits of the robot's curve."""
     limits = panel.get_ylim()
     times = np.linspace(0.0, seconds, 1000)
     values = np.array([float(function(at)) for at in times])
@@ -116,7 +122,7 @@ def _in_numbers(area: Area) -> str:
 
 
 def _draw_flag(panels: Sequence[Axes], mark: Mark, above: float, *, is_change: bool) -> None:
-    """Draw a line through all panels up to its label, whose top is `above` inches above the panels."""
+    """Draw a vertical line through all panels up to its label, whose top is `above` inches above the panels."""
     colour, line = (VERMILION, ":") if is_change else (GREY, "-")
     for panel in panels:
         panel.axvline(mark.time, color=colour, linestyle=line, linewidth=1.1)

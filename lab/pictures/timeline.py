@@ -1,4 +1,4 @@
-"""Processes on one time axis, each with the lines that it printed."""
+"""Draws processes on one time axis, each with the lines that it has printed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from IPython.display import HTML
 from lab.errors import LabError
 from lab.pictures.figure import BLUE, GREY, VERMILION, annotate, as_html, panel
 from lab.pictures.labels import ROW, Mark, overhang, rows_of, text_width
-from lab.running.processes import Life
+from lab.running.processes import ProcessHistory
 from lab.running.programs import Program
 from lab.running.student_nodes import StudentNode
 from ros_runtime.drawing.xml_text import shorten
@@ -21,31 +21,31 @@ from ros_runtime.drawing.xml_text import shorten
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-WIDTH = 6.6  # inches, of the time axis
-BAR, SPACE = 0.16, 0.16  # inches: height of a process, and below it
+WIDTH = 6.6  # inches, the length of the time axis
+BAR, SPACE = 0.16, 0.16  # inches, the height of a process's bar, and of the space below it
 LABEL_LENGTH = 48  # characters
-BURST_GAP = 0.05  # s, at most, between two lines of one burst; a long burst is shortened
-TIME = "s since the first of them began (system clock)"
+MAX_BURST_GAP = 0.05  # s between two lines of one burst; a long burst is shortened
+TIME = "s since the first process began (system clock)"
 
 
 def draw_timeline(*processes: StudentNode | Program, title: str = "Who did what when") -> HTML:
-    """Draw nodes and programs as bars from their beginning to their end, each with the lines it printed.
+    """Draw nodes and programs as bars from their start to their end, each with the lines that it has printed.
 
-    A line has the time at which the notebook received it, some milliseconds after it was printed. Of a burst of lines
-    the first and the last are shown.
+    The time of a line is when the notebook received it, a few milliseconds after it was printed. If many lines arrive
+    at once, only the first and the last one are shown.
 
     Raises LabError when no process is given.
     """
     if not processes:
-        raise LabError("say which processes to draw, for example lab.draw_timeline(server, client)")
-    lives = _told_apart([process.life() for process in processes])
-    zero, now = min(life.began for life in lives), time.monotonic()
-    end = max(life.ended or now for life in lives) - zero
+        raise LabError("name the processes to draw, for example lab.draw_timeline(server, client)")
+    histories = _with_unique_names([process.history() for process in processes])
+    zero, now = min(history.began for history in histories), time.monotonic()
+    end = max(history.ended or now for history in histories) - zero
     scale = WIDTH / end
-    moments = [_flags(life, zero) for life in lives]
+    moments = [_flags(history, zero) for history in histories]
     lanes = [[Mark(mark.time, shorten(mark.label, LABEL_LENGTH)) for mark in lane] for lane in moments]
     rows = [rows_of(flags, scale) for flags in lanes]
-    left = 0.3 + max(text_width(life.name) for life in lives)
+    left = 0.3 + max(text_width(history.name) for history in histories)
     right = max(0.25, *(overhang(flags, end, scale) for flags in lanes))
     depths = [ROW * (max(rows_of_lane, default=-1) + 1) + BAR + SPACE for rows_of_lane in rows]
     with panel(WIDTH, sum(depths), title, left=left, right=right) as (page, axis):
@@ -56,31 +56,31 @@ def draw_timeline(*processes: StudentNode | Program, title: str = "Who did what 
         axis.spines["left"].set_visible(False)
         axis.set_xlabel(TIME)
         top = 0.0
-        for life, flags, lane_rows, depth in zip(lives, lanes, rows, depths, strict=True):
+        for history, flags, lane_rows, depth in zip(histories, lanes, rows, depths, strict=True):
             bar = top + depth - SPACE - BAR
-            _draw_life(axis, life, zero, now, bar)
+            _draw_process(axis, history, zero, now, bar)
             for mark, row in zip(flags, lane_rows, strict=True):
-                _draw_line(axis, mark, top + row * ROW, bar, is_end=mark is flags[-1] and bool(life.ended))
+                _draw_line(axis, mark, top + row * ROW, bar, is_end=mark is flags[-1] and bool(history.ended))
             top += depth
-        return as_html(page, _in_words(title, lives, moments, zero))
+        return as_html(page, _in_words(title, histories, moments, zero))
 
 
-def _told_apart(lives: Sequence[Life]) -> list[Life]:
-    """The lives, with numbers appended to names that occur more than once."""
-    counts, seen = Counter(life.name for life in lives), Counter[str]()
+def _with_unique_names(histories: Sequence[ProcessHistory]) -> list[ProcessHistory]:
+    """Return the histories, with a number appended to each name that occurs more than once."""
+    counts, seen = Counter(history.name for history in histories), Counter[str]()
     named = []
-    for life in lives:
-        seen[life.name] += 1
-        number = f" ({seen[life.name]})" if counts[life.name] > 1 else ""
-        named.append(replace(life, name=life.name + number))
+    for history in histories:
+        seen[history.name] += 1
+        number = f" ({seen[history.name]})" if counts[history.name] > 1 else ""
+        named.append(replace(history, name=history.name + number))
     return named
 
 
-def _flags(life: Life, zero: float) -> list[Mark]:
-    """The labels of a life: its printed lines and its end."""
+def _flags(history: ProcessHistory, zero: float) -> list[Mark]:
+    """Return the labels of a process: its printed lines and its end."""
     bursts: list[list[Mark]] = []
-    for line in life.lines:
-        if bursts and line.time - bursts[-1][-1].time < BURST_GAP:
+    for line in history.lines:
+        if bursts and line.time - bursts[-1][-1].time < MAX_BURST_GAP:
             bursts[-1].append(line)
         else:
             bursts.append([line])
@@ -90,17 +90,20 @@ def _flags(life: Life, zero: float) -> list[Mark]:
             between = Mark(burst[1].time, f"… {len(burst) - 2} more lines …")
             burst = [burst[0], between, burst[-1]]
         shown += burst
-    ending = [] if life.ended is None else [Mark(life.ended, life.end)]
+    ending = [] if history.ended is None else [Mark(history.ended, history.end)]
     return [Mark(mark.time - zero, mark.label) for mark in [*shown, *ending]]
 
 
-def _draw_life(axis: Axes, life: Life, zero: float, now: float, bar: float) -> None:
-    until = (now if life.ended is None else life.ended) - zero
+def _draw_process(axis: Axes, history: ProcessHistory, zero: float, now: float, bar: float) -> None:
+    until = (now if history.ended is None else history.ended) - zero
     axis.broken_barh(
-        [(life.began - zero, until - life.began + zero)], (bar, BAR), facecolor="#cfe3f1", edgecolor=BLUE
+        [(history.began - zero, until - history.began + zero)],
+        (bar, BAR),
+        facecolor="#cfe3f1",
+        edgecolor=BLUE,
     )
     beside = {"xycoords": ("axes fraction", "data"), "ha": "right", "va": "center"}
-    annotate(axis, life.name, (0, bar + BAR / 2), (-6, 0), **beside)
+    annotate(axis, history.name, (0, bar + BAR / 2), (-6, 0), **beside)
 
 
 def _draw_line(axis: Axes, mark: Mark, label_top: float, bar: float, *, is_end: bool) -> None:
@@ -110,10 +113,14 @@ def _draw_line(axis: Axes, mark: Mark, label_top: float, bar: float, *, is_end: 
     annotate(axis, mark.label, (mark.time, label_top), (3, -2), va="top", color=colour)
 
 
-def _in_words(title: str, lives: Sequence[Life], lanes: Sequence[Sequence[Mark]], zero: float) -> str:
-    def sentence(life: Life, flags: Sequence[Mark]) -> str:
+def _in_words(
+    title: str, histories: Sequence[ProcessHistory], lanes: Sequence[Sequence[Mark]], zero: float
+) -> str:
+    def sentence(history: ProcessHistory, flags: Sequence[Mark]) -> str:
         lines = "; ".join(f"{mark.time:.2f} s: {mark.label}" for mark in flags)
-        runs = " It still runs." if life.ended is None else ""
-        return f"{life.name} began at {life.began - zero:.2f} s; {lines or 'it printed nothing'}.{runs}"
+        runs = " It still runs." if history.ended is None else ""
+        return f"{history.name} began at {history.began - zero:.2f} s; {lines or 'it printed nothing'}.{runs}"
 
-    return " ".join([f"{title}.", *(sentence(life, flags) for life, flags in zip(lives, lanes, strict=True))])
+    return " ".join(
+        [f"{title}.", *(sentence(history, flags) for history, flags in zip(histories, lanes, strict=True))]
+    )

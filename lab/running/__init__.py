@@ -1,1 +1,1 @@
-"""Starts and ends the robot and students' programs."""
+"""Starts and stops the robot and the students' programs."""

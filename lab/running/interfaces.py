@@ -1,4 +1,4 @@
-"""Build the interface package of a notebook: .msg, .srv and .action files become types that nodes can import."""
+"""Builds a student's interface package: .msg, .srv and .action files become types that nodes can import."""
 
 from __future__ import annotations
 
@@ -14,17 +14,18 @@ from ros_runtime.interface_build.student_package import (
     write_package,
 )
 
-BUILDS = Path(".interfaces")  # hidden, as for the files of any tool
+BUILDS = Path(".interfaces")  # hidden, like the folders of other tools
 
 
 def build_interfaces(folder: str | Path) -> None:
-    """Build the definitions in a folder; the folder's name becomes the package's.
+    """Build the definitions in a folder as a package with the folder's name.
 
-    Nodes that you start afterwards, and this notebook, can import it. Nodes that already run keep the types they have.
-    Definitions that have not changed are not built again.
+    This notebook and nodes that you start afterwards can import the package. Nodes that already run keep the types
+    that they have imported. Unchanged definitions are not built again.
 
     Raises:
-        LabError: there is nothing to build, or a definition is wrong: which file, which line, what was expected.
+        LabError: there is nothing to build, or a definition is wrong; the message has its file and line, and what was
+            expected.
     """
     source = _existing_folder(folder)
     try:
@@ -39,16 +40,17 @@ def build_interfaces(folder: str | Path) -> None:
         package.make_importable_here()
     else:
         print(
-            f"This notebook imported an earlier {package.name} and keeps it. Nodes that you start now have the "
-            "new one; to use it here as well, restart the kernel (menu Kernel)."
+            f"This notebook has imported an earlier version of {package.name} and still uses it. Nodes that you start "
+            "now use the new version. To use it in this notebook, too, restart the kernel (menu Kernel)."
         )
 
 
 def export_package(folder: str | Path, workspace: str | Path) -> None:
-    """Write the definitions in a folder into the `src` of a workspace, as a package that `colcon build` builds.
+    """Write the definitions in a folder as a package for `colcon build`, into the folder `src` of a workspace.
 
     Raises:
-        LabError: there is no such folder, or a definition is wrong: which file, which line, what was expected.
+        LabError: there is no such folder, or a definition is wrong; the message has its file and line, and what was
+            expected.
     """
     source = _existing_folder(folder)
     name = source.resolve().name

@@ -1,4 +1,4 @@
-"""Child processes that survive an interrupted cell and never survive the kernel; what they printed when."""
+"""Child processes that survive the interrupt of a cell but not the end of the kernel, and their output with times."""
 
 from __future__ import annotations
 
@@ -21,20 +21,21 @@ import psutil
 from lab.pictures.labels import Mark
 from ros_runtime.workarounds import die_with_parent
 
-KEPT_LINES = 2000  # of each stream
+KEPT_LINES = 2000  # of each output stream
 GRACE = 3.0  # s from SIGINT to SIGKILL
-DRAIN_TIME = 1.0  # s to read what an ended process left in its pipe
+DRAIN_TIME = 1.0  # s to read the rest of the pipe of a process that has ended
 LOG_PREFIX = re.compile(r"^(\[\w+\]) \[[\d.]+\] \[[^\]]*\]: ")  # severity, time and logger of a ROS log line
 
-# The signal that `die_with_parent` asks for comes when the *thread* that started the child ends: this one never does.
+# Linux sends the signal of `die_with_parent` when the *thread* that started the child ends; this thread never ends.
 _spawner = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lab spawner")
 
 
 class Process:
     """A Python program in a process session of its own, with its last output.
 
-    In its own session it does not get the SIGINT of Jupyter's stop button; `die_with_parent` ends it together with the
-    notebook's kernel. Its output includes stderr, unless `own_stderr` is set. `began`: s of `time.monotonic()`.
+    Because of the session it does not receive the SIGINT of Jupyter's stop button. `die_with_parent` ends it when the
+    notebook's kernel ends. Its output includes stderr, unless `own_stderr` is set. `began` is its start, in s of
+    `time.monotonic()`.
     """
 
     def __init__(self, arguments: Sequence[str], *, own_stderr: bool = False) -> None:
@@ -45,37 +46,37 @@ class Process:
 
     @property
     def is_running(self) -> bool:
-        """Whether it is still running."""
+        """Whether the process is still running."""
         return self._popen.poll() is None
 
     @property
     def exit_status(self) -> int | None:
-        """None while it runs, -n when signal n ended it."""
+        """None while the process runs; -n if signal n ended it."""
         return self._popen.poll()
 
     def cpu_time(self) -> float:
-        """Processor time used so far, in s, with a resolution of 0.01 s. The process must be running."""
+        """Return the processor time used so far, in s, with a resolution of 0.01 s. The process must be running."""
         used = psutil.Process(self._popen.pid).cpu_times()
         return used.user + used.system
 
     def output(self) -> str:
-        """The last 2000 lines of stdout and stderr, in the order in which they were written."""
+        """Return the last 2000 lines of stdout and, unless `own_stderr` is set, of stderr, in the order of writing."""
         return self._text(self._output)
 
     def errors(self) -> str:
-        """The last 2000 lines of stderr, if `own_stderr` is set."""
+        """Return the last 2000 lines of stderr if `own_stderr` is set."""
         return self._text(self._errors) if self._errors else ""
 
     def lines(self) -> list[tuple[float, str]]:
-        """The lines of `output()` and `errors()`, each with the time (s, `time.monotonic()`) at which it arrived."""
+        """Return the lines of `output()` and `errors()`, each with its time of arrival (s, `time.monotonic()`)."""
         return sorted(line for stream in self._streams() for line in self._lines(stream))
 
     def ended(self) -> float | None:
-        """When its output was closed (s, `time.monotonic()`), which is its end; None while it runs."""
+        """Return when the process ended and closed its output (s, `time.monotonic()`); None while it runs."""
         return None if self.is_running else max(stream.closed() for stream in self._streams())
 
     def wait(self, timeout: float) -> bool:
-        """Wait for its end; return whether it ended within `timeout` s."""
+        """Wait until the process ends; return whether it ended within `timeout` s."""
         try:
             self._popen.wait(timeout)
         except subprocess.TimeoutExpired:
@@ -83,7 +84,7 @@ class Process:
         return True
 
     def stop(self) -> bool:
-        """Send SIGINT, then SIGKILL after 3 s. Returns whether SIGINT was enough."""
+        """Send SIGINT, and SIGKILL if the process still runs after 3 s; return whether SIGINT was enough."""
         self.send(signal.SIGINT)
         if self.wait(GRACE):
             return True
@@ -91,12 +92,12 @@ class Process:
         return False
 
     def kill(self) -> None:
-        """Send SIGKILL to it and to all processes that it started, and wait for its end."""
+        """Send SIGKILL to the process and to all processes that it started, and wait for its end."""
         self.send(signal.SIGKILL)
         self._popen.wait()
 
     def send(self, signal_number: int) -> None:
-        """Send a signal to it and to all processes that it started."""
+        """Send a signal to the process and to all processes that it started."""
         if self.is_running:
             with suppress(ProcessLookupError):
                 os.killpg(self._popen.pid, signal_number)
@@ -112,7 +113,7 @@ class Process:
 
 
 class _LastLines:
-    """Reads a pipe to its end, in a thread, and keeps the last lines."""
+    """Reads a pipe to its end in a thread, and keeps the last lines."""
 
     def __init__(self, pipe: IO[str] | None) -> None:
         assert pipe
@@ -123,16 +124,16 @@ class _LastLines:
         self._reader.start()
 
     def lines(self, *, complete: bool) -> list[tuple[float, str]]:
-        """The lines so far, each with the time at which it arrived.
+        """Return the lines so far, each with its time of arrival.
 
-        `complete`: the process has ended, so first read what is left in the pipe.
+        `complete` means that the process has ended, so the rest of the pipe is read first.
         """
         if complete:
             self._reader.join(DRAIN_TIME)
         return list(self._lines.copy())
 
     def closed(self) -> float:
-        """When the pipe was closed; now, if a child of the ended process still holds it."""
+        """Return when the pipe was closed; the current time, if a child of the ended process still has it open."""
         self._reader.join(DRAIN_TIME)
         return time.monotonic() if self._closed is None else self._closed
 
@@ -143,10 +144,10 @@ class _LastLines:
 
 
 @dataclass(frozen=True)
-class Life:
-    """A process from `began` to `ended` (None: it still runs), s of `time.monotonic()`, with what it printed.
+class ProcessHistory:
+    """What a process has done, for pictures: when it began and ended, how it ended, and what it printed.
 
-    `end` says how it ended.
+    Times are in s of `time.monotonic()`. `ended` is None if it still runs. `end` describes how it ended.
     """
 
     name: str
@@ -156,8 +157,8 @@ class Life:
     lines: Sequence[Mark]
 
     @classmethod
-    def of(cls, name: str, process: Process, *, was_stopped: bool) -> Life:
-        """The life of a process so far; `was_stopped`: the notebook ended it."""
+    def of(cls, name: str, process: Process, *, was_stopped: bool) -> ProcessHistory:
+        """Return the history of a process so far; `was_stopped` is whether the notebook stopped it."""
         return cls(
             name,
             process.began,
@@ -176,13 +177,13 @@ def _end(exit_status: int | None, was_stopped: bool) -> str:
 
 
 def _printable(line: str) -> str:
-    """A line as a label: without the prefix of a log line and without unprintable characters."""
+    """Return a line as a label: without the time and logger of a log message, and without unprintable characters."""
     letters = "".join(letter if letter.isprintable() else " " for letter in line)
     return LOG_PREFIX.sub(r"\1 ", " ".join(letters.split()))
 
 
 def _start(arguments: Sequence[str], own_stderr: bool) -> subprocess.Popen[str]:
-    # -I and -S: it needs no site-packages, whose start-up files would only cost time.
+    # die_with_parent needs no site-packages; -I and -S skip their start-up files, which cost time.
     with_us = [sys.executable, "-I", "-S", die_with_parent.__file__, str(os.getpid()), sys.executable]
     return subprocess.Popen(
         [*with_us, *arguments],

@@ -1,4 +1,4 @@
-"""Run your client: a program that ends by itself, with an exit status."""
+"""Runs a student's client: a program that ends by itself, with an exit status."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import time
 from pathlib import Path
 
 from lab.client.connection import connection
-from lab.running.processes import Life, Process
+from lab.running.processes import Process, ProcessHistory
 from lab.running.student_nodes import existing_file, in_namespace
 
 _running: dict[Path, Program] = {}
 
 
 def run_program(file: str | Path, *arguments: str, timeout: float = 30.0) -> Program:
-    """Run a Python file in namespace /robot and wait for its end: `start_program` followed by `wait`.
+    """Run a Python file in namespace /robot and wait for its end, like `start_program` and then `wait`.
 
     Raises LabError when there is no such file.
     """
@@ -21,9 +21,9 @@ def run_program(file: str | Path, *arguments: str, timeout: float = 30.0) -> Pro
 
 
 def start_program(file: str | Path, *arguments: str) -> Program:
-    """Start a Python file as a process in namespace /robot and return without waiting.
+    """Start a Python file as a process in namespace /robot, and do not wait for its end.
 
-    A program that an earlier cell started from the same file is stopped first if it still runs.
+    If a program that was started earlier from the same file still runs, it is stopped first.
 
     Raises LabError when there is no such file.
     """
@@ -37,18 +37,18 @@ def start_program(file: str | Path, *arguments: str) -> Program:
 
 
 def stop_programs() -> None:
-    """End every program that still runs."""
+    """Stop every program that still runs."""
     for program in _running.values():
         program.stop()
     _running.clear()
 
 
 class Program:
-    """A file that runs, or ran, as a process.
+    """A file that runs, or has run, as a process.
 
     Attributes:
         file: its path.
-        stopped: whether it had to be stopped because it did not end by itself.
+        stopped: whether it was stopped because it did not end by itself.
     """
 
     def __init__(self, file: Path, process: Process) -> None:
@@ -60,38 +60,38 @@ class Program:
 
     @property
     def exit_status(self) -> int | None:
-        """Its exit status; None while it runs, and when it had to be stopped."""
+        """The exit status; None while the program runs, and if it was stopped."""
         return None if self.stopped else self._process.exit_status
 
     @property
     def stdout(self) -> str:
-        """What it has written to stdout: the output of `print()`."""
+        """What the program has written to stdout: the output of `print()`."""
         return self._process.output()
 
     @property
     def stderr(self) -> str:
-        """What it has written to stderr: log messages and tracebacks."""
+        """What the program has written to stderr: log messages and tracebacks."""
         return self._process.errors()
 
     @property
     def seconds(self) -> float:
-        """How long it ran until `wait` returned, or has run until now, in s."""
+        """How long the program ran until `wait` returned, in s; before that, how long it has run so far."""
         return time.monotonic() - self._started if self._seconds is None else self._seconds
 
     def wait(self, timeout: float = 30.0) -> Program:
-        """Wait for its end, or stop it after `timeout` s. Returns the program itself."""
+        """Wait for the program's end, or stop it after `timeout` s; return the program itself."""
         ended = self._process.wait(timeout)
         self._seconds = self._seconds or self.seconds
         if not ended:
             self.stop()
         return self
 
-    def life(self) -> Life:
-        """When it began, what it printed when, and how it ended, for a picture."""
-        return Life.of(self.file.name, self._process, was_stopped=self.stopped)
+    def history(self) -> ProcessHistory:
+        """Return when the program began and ended, and its printed lines with their times, for a picture."""
+        return ProcessHistory.of(self.file.name, self._process, was_stopped=self.stopped)
 
     def stop(self) -> None:
-        """Press Ctrl-C, and kill it if it does not end within 3 s."""
+        """Send SIGINT, as Ctrl-C does, and SIGKILL if the program does not end within 3 s."""
         if self._process.is_running:
             self.stopped = True
             self._process.stop()

@@ -1,4 +1,4 @@
-"""The end of a session."""
+"""Ends a notebook's session."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from lab.running.student_nodes import stop_nodes
 
 @atexit.register
 def stop_everything() -> None:
-    """Stop all programs, nodes and the robot, and leave the ROS graph. `start_robot()` starts again."""
+    """Stop all programs, nodes and the robot, and leave the ROS graph. `start_robot()` begins a new session."""
     stop_watching()
     stop_programs()
     stop_nodes()

@@ -1,4 +1,4 @@
-"""Run a student's file as a node: a real process in the robot's namespace."""
+"""Runs a student's file as a node, in a process of its own and in the robot's namespace."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from pathlib import Path
 from autograder.authoring.diagnosis.exit_diagnosis import remedy_for_a_traceback
 from lab.client.connection import NAMESPACE, connection
 from lab.client.interaction_log import log
-from lab.client.waiting import comes_true
+from lab.client.waiting import becomes_true
 from lab.errors import LabError, NodeEndedError
-from lab.running.processes import Life, Process
+from lab.running.processes import Process, ProcessHistory
 from ros_runtime.notebook_domains import expect_node, forget_node
 from ros_runtime.reachability import wait_until_reachable
 
@@ -22,14 +22,14 @@ _nodes: dict[Path, StudentNode] = {}
 
 
 def run_node(file: str | Path, *arguments: str) -> StudentNode:
-    """Start a Python file as a process in namespace /robot and wait until its node answers.
+    """Start a Python file as a process in namespace /robot and wait until its node can be reached.
 
-    A node that an earlier cell started from the same file is stopped first, so that no old server keeps answering.
-    `arguments` are the program's own.
+    If a node that was started earlier from the same file still runs, it is stopped first, so that no old server
+    responds. `arguments` are passed to the program.
 
     Raises:
         LabError: there is no such file.
-        NodeEndedError: it ended with an error at once; the message quotes what it printed.
+        NodeEndedError: the program ended with an error at once; the message quotes its output.
     """
     path = existing_file(file)
     log.clear()  # pending requests to an earlier server are not part of the next interaction
@@ -39,7 +39,7 @@ def run_node(file: str | Path, *arguments: str) -> StudentNode:
     known = _nodes_seen()
     node = StudentNode(path, Process([str(path), *in_namespace(arguments)]))
     _nodes[path] = node
-    if comes_true(lambda: not node.is_running or _nodes_seen().keys() - known, START_TIMEOUT):
+    if becomes_true(lambda: not node.is_running or _nodes_seen().keys() - known, START_TIMEOUT):
         deadline = time.monotonic() + START_TIMEOUT
         for gid, name in _nodes_seen().items():
             if gid not in known:
@@ -49,7 +49,7 @@ def run_node(file: str | Path, *arguments: str) -> StudentNode:
                 node.expect(name)
     if not node.is_running and node.exit_status != 0:
         raise NodeEndedError(
-            f"{path.name} ended at once with exit status {node.exit_status}. {_last_words(node)}"
+            f"{path.name} ended at once with exit status {node.exit_status}. {_advice_and_output(node)}"
         )
     return node
 
@@ -62,9 +62,9 @@ def stop_nodes() -> None:
 
 
 def existing_file(file: str | Path) -> Path:
-    """The full path of a student's file.
+    """Return the absolute path of a student's file.
 
-    Raises LabError when there is none.
+    Raises LabError when there is no such file.
     """
     path = Path(file).resolve()
     if not path.is_file():
@@ -75,25 +75,25 @@ def existing_file(file: str | Path) -> Path:
 
 
 def in_namespace(arguments: Sequence[str]) -> list[str]:
-    """The arguments of a program, followed by those that put its node into the robot's namespace."""
+    """Return a program's arguments, followed by the ROS arguments that put its node into the robot's namespace."""
     return [*arguments, "--ros-args", "-r", f"__ns:={NAMESPACE}"]
 
 
 def output_of_failed_nodes() -> str:
-    """The output of each node that ended with an error, to quote in an error message; "" if there are none."""
+    """Return the output of each node that ended with an error, to quote in an error message; "" if there is none."""
     return "".join(
-        f"\n{node.file.name} has ended with exit status {node.exit_status}. {_last_words(node)}"
+        f"\n{node.file.name} has ended with exit status {node.exit_status}. {_advice_and_output(node)}"
         for node in _nodes.values()
         if node.exit_status and not node.was_stopped
     )
 
 
 class StudentNode:
-    """A file that runs as a process.
+    """A student's file that runs, or has run, as a node in a process of its own.
 
     Attributes:
         file: its path.
-        was_stopped: `stop()` or `kill()` was called.
+        was_stopped: whether the notebook ended it with `stop()` or `kill()`.
     """
 
     def __init__(self, file: Path, process: Process) -> None:
@@ -109,24 +109,24 @@ class StudentNode:
 
     @property
     def is_running(self) -> bool:
-        """Whether its process is still running."""
+        """Whether the node's process is still running."""
         return self._process.is_running
 
     @property
     def exit_status(self) -> int | None:
-        """None while it runs, 0 after a clean end, -n when signal n ended it."""
+        """None while the process runs, 0 after a clean end, -n if signal n ended it."""
         return self._process.exit_status
 
     def log(self) -> str:
-        """Everything it has printed: `print()`, log messages and tracebacks."""
+        """Return everything that the node has printed: the output of `print()`, log messages and tracebacks."""
         return self._process.output()
 
-    def life(self) -> Life:
-        """When it began, what it printed when, and how it ended, for a picture."""
-        return Life.of(self.file.name, self._process, was_stopped=self.was_stopped)
+    def history(self) -> ProcessHistory:
+        """Return when the node began and ended, and its printed lines with their times, for a picture."""
+        return ProcessHistory.of(self.file.name, self._process, was_stopped=self.was_stopped)
 
     def stop(self) -> None:
-        """Press Ctrl-C. If the node does not end within 3 s, kill it and say so."""
+        """Send SIGINT, as Ctrl-C does. If the node does not end within 3 s, kill it and print that."""
         self._expect_no_more()
         if self.is_running:
             self.was_stopped = True
@@ -134,7 +134,7 @@ class StudentNode:
                 print(f"{self.file.name} did not end within 3 s of Ctrl-C and was killed")
 
     def kill(self) -> None:
-        """End it as a crash or a power cut would: it cannot clean up or tell other nodes."""
+        """End the node like a crash or a power cut: it cannot clean up or announce its end to other nodes."""
         self.was_stopped = True
         self._expect_no_more()
         self._process.kill()
@@ -148,15 +148,15 @@ class StudentNode:
         return f"<{self.file.name}: {state}>"
 
 
-def _last_words(node: StudentNode) -> str:
-    """What to do about its last exception, as the self-check says it, and then all that the node printed."""
+def _advice_and_output(node: StudentNode) -> str:
+    """Return the self-check's advice on the node's last exception, followed by all that the node printed."""
     remedy = remedy_for_a_traceback(node.log())
     advice = remedy.help.replace("{of}", "") + " " if remedy else ""
     return f"{advice}It printed:\n{node.log()}"
 
 
 def _nodes_seen() -> dict[bytes, str]:
-    """The full names of the nodes in the graph, by the unique GID of each node's /rosout publisher."""
+    """Return the full names of the nodes in the graph, by the unique GID of each node's /rosout publisher."""
     return {
         bytes(info.endpoint_gid): f"{info.node_namespace.rstrip('/')}/{info.node_name}"
         for info in connection().node.get_publishers_info_by_topic("/rosout")

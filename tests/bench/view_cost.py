@@ -84,7 +84,7 @@ def view_cost(seconds: float = 5.0, rounds: int = 3) -> ViewCost:
     pictures, without, watched = 0, Load(), Load()
     try:
         start_robot()
-        clock = connection().once("simulated time", _SimulatedTime)
+        clock = connection().get_or_create("simulated time", _SimulatedTime)
         wait_until(lambda: clock.seconds > 0, what="the robot's /clock")
         with walking(**CIRCLE):
             wait_until(lambda: topics.mode() == "WALKING", what="the robot walks")

@@ -1,1 +1,1 @@
-"""What the gaps of the chapters are checked for, a module a chapter."""
+"""The checks of the gaps, one module for each chapter."""

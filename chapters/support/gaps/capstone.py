@@ -10,154 +10,161 @@ from chapters.support import harness
 from humanoid_interfaces.action import WalkTo
 from lab.client.goals import Goal, send_goal
 from lab.client.outcomes import Outcome
-from lab.client.waiting import comes_true
+from lab.client.waiting import becomes_true
 from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_checks import asked, last_error, read_program
+from lab.learning.gap_check_helpers import last_error, read_program, run_student_code
 from lab.running.student_nodes import StudentNode, run_node, stop_nodes
 
-LEGS = f"{harness.__path__[0]}/played_legs.py"
-NOT_MET = "has not accepted the goal"  # what errand.py says when the child's answer did not come
-TRIES = 4  # errands until parent and child have found each other
-TO_BEGIN = 6.0  # s for the first feedback, or for an end
-TO_GO_DOWN = 2.0  # s for a cancel to reach the child
-A_MOMENT = (
-    0.5  # s for the child to tell of a cancel that came just before the errand ended; less than CHILD_NEEDS
-)
-CHILD_NEEDS = 1.0  # s that the played legs go on after a cancel
-PATIENCE = 2.0  # s, as errand.py has it
-SLOW = 3.0  # s of work for a child that is only slow
-TO_END = 4.0  # s for an end that is due
-CHILD_WORK_TIME = 15.0  # s of work for a child that is to be stopped
+LEGS_PROGRAM = f"{harness.__path__[0]}/scripted_legs.py"
+NO_RESPONSE = "has not accepted the goal"  # errand.py's error_msg when the child sent no goal response
+MAX_ERRANDS = 4  # goals sent until parent and child have discovered each other
+FIRST_FEEDBACK_TIMEOUT = 6.0  # s until the errand gives feedback or ends
+FORWARDED_CANCEL_TIMEOUT = 2.0  # s for a cancel to reach the child
+REPORT_DELAY = 0.5  # s for a cancel to appear in the child's log; less than CHILD_CANCEL_DURATION
+CHILD_CANCEL_DURATION = 1.0  # s that the scripted legs need to stop after a cancel
+PATIENCE = 2.0  # s, the same as in errand.py
+SLOW_WORK_TIME = 3.0  # s, for a child that is slow but gives feedback
+END_TIMEOUT = 4.0  # s, beyond the expected duration
+LONG_WORK_TIME = 15.0  # s, for a child that is stopped before it finishes
 
 
 def waits_for_the_end_of_its_child() -> str:
-    """Let an errand end by itself, and cancel another one."""
+    """Let one errand succeed, and cancel another one."""
     parent, legs = _start("careful_errand.py", "steady")
-    _let_it_end(parent, legs)
-    goal = _under_way(parent, CHILD_WORK_TIME)
+    _require_success(parent, legs)
+    goal = _under_way(parent, LONG_WORK_TIME)
     seen = len(_events(legs))
-    asked = time.monotonic()
+    cancelled_at = time.monotonic()
     goal.cancel()
-    went_down = comes_true(
-        lambda: _has_told(legs, seen, "cancel") or goal.is_over or not parent.is_running, TO_GO_DOWN
+    has_reacted = becomes_true(
+        lambda: _has_reported(legs, seen, "cancel") or goal.is_over or not parent.is_running,
+        FORWARDED_CANCEL_TIMEOUT,
     )
-    if not comes_true(lambda: _has_told(legs, seen, "cancel"), A_MOMENT):
+    if not becomes_true(lambda: _has_reported(legs, seen, "cancel"), REPORT_DELAY):
         raise not_yet(
-            f"the errand ended {_status(goal)}, and go_ahead goes on: nobody has cancelled its goal"
-            if went_down
-            else f"{TO_GO_DOWN:g} s after the cancel of the errand, go_ahead got none",
-            "a cancel for go_ahead within a moment",
-            "in every round, ask self.should_stop(goal_handle), and call child.cancel_goal_async() when it is true",
+            f"the errand ended {_status(goal)}, but its child is still active: go_ahead received no cancel request"
+            if has_reacted
+            else f"the errand was cancelled, but go_ahead received no cancel request within "
+            f"{FORWARDED_CANCEL_TIMEOUT:g} s",
+            "a cancel request to go_ahead as soon as the errand is cancelled",
+            "check self.should_stop(goal_handle) in every round, and call child.cancel_goal_async() when it is true",
         )
-    comes_true(lambda: goal.is_over or not parent.is_running, CHILD_NEEDS + TO_END)
+    becomes_true(lambda: goal.is_over or not parent.is_running, CHILD_CANCEL_DURATION + END_TIMEOUT)
     if goal.is_over and not _has_ended(legs, seen):
         raise not_yet(
-            f"the errand ended {_status(goal)} before its child had ended{_complaint(parent)}",
-            "the child's end, and then the errand's",
-            "go on waiting until end.done(): the answer to a cancel only says that the child will try",
+            f"the errand ended {_status(goal)} before its child had ended{_error_in_log(parent)}",
+            "the child ends first, then the errand",
+            "keep waiting until end.done(): an accepted cancel only means that the child will try to stop",
         )
     if not goal.is_over:
         raise not_yet(
-            f"go_ahead has ended, and {TO_END:g} s later the errand is {goal.status}{_complaint(parent)}",
-            "the errand's end",
-            "leave the loop when end.done(): call wait and sleep inside it, and nothing that waits forever",
+            f"{END_TIMEOUT:g} s after the child ended, the errand is still {goal.status}{_error_in_log(parent)}",
+            "the errand ends soon after its child",
+            "leave the loop when end.done() is true, and call nothing in the loop that waits without a limit",
         )
     outcome = goal.result(show_feedback=False)
     expect(
-        outcome.status == "CANCELED" and not _complaint(parent),
-        seen=f"the errand ended {outcome.status}{_complaint(parent)}",
+        outcome.status == "CANCELED" and not _error_in_log(parent),
+        seen=f"the errand ended {outcome.status}{_error_in_log(parent)}",
         expected="CANCELED, and no error",
-        next="only wait here, and return: finish() makes the terminal call",
+        next="only wait here, then return: finish() makes the terminal call",
     )
     cancels = _events(legs)[seen:].count("cancel")
     expect(
         cancels == 1,
-        seen=f"{cancels} requests to cancel at go_ahead",
-        expected="one",
-        next="remember that you have asked: go_ahead answers every request after the first with a refusal",
+        seen=f"go_ahead received {cancels} cancel requests for the same goal",
+        expected="one cancel request",
+        next="remember that you have sent one: go_ahead rejects every further cancel request",
     )
-    took = time.monotonic() - asked
-    return f"it succeeded when nobody cancelled; cancelled, it waited {took:.1f} s for the end of its child"
+    took = time.monotonic() - cancelled_at
+    return f"it succeeded without a cancel; after a cancel it waited {took:.1f} s until its child had ended"
 
 
-def _let_it_end(parent: StudentNode, legs: StudentNode) -> None:
-    """Require that an errand which nobody cancels succeeds."""
+def _require_success(parent: StudentNode, legs: StudentNode) -> None:
+    """Require that an errand succeeds if it is not cancelled."""
     goal = _under_way(parent, 1.5)
-    comes_true(lambda: goal.is_over or not parent.is_running, 1.5 + TO_END)
+    becomes_true(lambda: goal.is_over or not parent.is_running, 1.5 + END_TIMEOUT)
     if not goal.is_over:
         raise not_yet(
-            f"nobody cancelled, the child has ended, and the errand is {goal.status}{_complaint(parent)}",
+            f"the errand was not cancelled and its child has ended, but the errand is still {goal.status}"
+            f"{_error_in_log(parent)}",
             "SUCCEEDED",
             "leave the loop as soon as end.done() is true",
         )
     outcome = goal.result(show_feedback=False)
-    if outcome.status != "SUCCEEDED" and _has_told(legs, 0, "cancel"):
+    if outcome.status != "SUCCEEDED" and _has_reported(legs, 0, "cancel"):
         raise not_yet(
-            f"nobody cancelled the errand, and go_ahead was cancelled; the errand ended {outcome.status}",
+            f"the errand was not cancelled, but it sent a cancel request to go_ahead and ended {outcome.status}",
             "SUCCEEDED",
             "call child.cancel_goal_async() only if self.should_stop(goal_handle)",
         )
     expect(
         outcome.status == "SUCCEEDED",
-        seen=f"nobody cancelled, and the errand ended {outcome.status}{_complaint(parent)}",
-        expected="SUCCEEDED when its child has",
-        next="mend what this error names"
-        if _complaint(parent)
-        and "NoneType" not in _complaint(parent)  # finish() had no answer of the child yet
-        else "return only when end.done() is true, and end the goal nowhere in these lines",
+        seen=f"the errand was not cancelled, but it ended {outcome.status}{_error_in_log(parent)}",
+        expected="SUCCEEDED after its child has SUCCEEDED",
+        next="fix the error that is named here"
+        if _error_in_log(parent)
+        and "NoneType"
+        not in _error_in_log(parent)  # otherwise finish() was called before the child's result arrived
+        else "return only when end.done() is true, and make no terminal call in these lines",
     )
 
 
 def gives_up_a_silent_child() -> str:
-    """Run an errand with a slow child, with one that falls silent, and with one that dies."""
+    """Run an errand with a slow child, with one that stops giving feedback, and with one that is killed."""
     parent, legs = _start("patient_errand.py", "steady")
-    _has_patience(parent, legs)
-    reason = _gives_up_the_mute()
+    _require_patience(parent, legs)
+    reason = _require_cancel_of_a_silent_child()
     parent, legs = _start("patient_errand.py", "steady")
-    goal = _under_way(parent, CHILD_WORK_TIME)
+    goal = _under_way(parent, LONG_WORK_TIME)
     legs.kill()
-    outcome = _end_of(goal, parent, 2 * PATIENCE + TO_END, "the child was killed")
+    outcome = _end_of(goal, parent, 2 * PATIENCE + END_TIMEOUT, "the child was killed")
     _require_abort(outcome, parent)
-    return f"it waited for a slow child, and gave up a mute one and a dead one: {reason!r}"
+    return f"it waited for a slow child, and gave up a silent one and a dead one: {reason!r}"
 
 
-def _has_patience(parent: StudentNode, legs: StudentNode) -> None:
-    """Require that a child which works for longer than PATIENCE, with feedback, comes to its end."""
-    goal = _under_way(parent, SLOW)
-    outcome = _end_of(goal, parent, SLOW + TO_END, "the child gives feedback and ends in time")
+def _require_patience(parent: StudentNode, legs: StudentNode) -> None:
+    """Require that the errand waits for a child that works longer than PATIENCE but gives feedback."""
+    goal = _under_way(parent, SLOW_WORK_TIME)
+    outcome = _end_of(goal, parent, SLOW_WORK_TIME + END_TIMEOUT, "the child gave feedback and succeeded")
     expect(
-        outcome.status == "SUCCEEDED" and not _has_told(legs, 0, "cancel"),
-        seen=f"a child that works {SLOW:g} s, with feedback ten times a second: "
-        f"the errand ended {outcome.status}{_complaint(parent)}",
+        outcome.status == "SUCCEEDED" and not _has_reported(legs, 0, "cancel"),
+        seen=f"the child worked {SLOW_WORK_TIME:g} s and gave feedback ten times a second, "
+        f"but the errand ended {outcome.status}{_error_in_log(parent)}",
         expected="SUCCEEDED",
-        next="measure the silence, time.monotonic() - self.heard; a long walk is no dead one",
+        next="measure the time since the last feedback, time.monotonic() - self.heard: a long walk is no failure",
     )
 
 
-def _gives_up_the_mute() -> str:
-    """Require that a child which falls silent is cancelled, and awaited; return the reason that the client gets."""
-    parent, legs = _start("patient_errand.py", "mute")
-    goal = _under_way(parent, CHILD_WORK_TIME)
-    comes_true(
-        lambda: _has_told(legs, 0, "cancel") or goal.is_over or not parent.is_running,
-        PATIENCE + TO_GO_DOWN + 2.0,
+def _require_cancel_of_a_silent_child() -> str:
+    """Require that a child without feedback is cancelled and that the errand waits for its end.
+
+    Return the error_msg that the client receives.
+    """
+    parent, legs = _start("patient_errand.py", "silent")
+    goal = _under_way(parent, LONG_WORK_TIME)
+    becomes_true(
+        lambda: _has_reported(legs, 0, "cancel") or goal.is_over or not parent.is_running,
+        PATIENCE + FORWARDED_CANCEL_TIMEOUT + 2.0,
     )
-    if not comes_true(lambda: _has_told(legs, 0, "cancel"), A_MOMENT):
+    if not becomes_true(lambda: _has_reported(legs, 0, "cancel"), REPORT_DELAY):
         raise not_yet(
-            f"a child fell silent; the errand ended {_status(goal)}, and nobody cancelled the child{_complaint(parent)}"
+            f"the child stopped giving feedback; the errand ended {_status(goal)} without a cancel request to the child"
+            f"{_error_in_log(parent)}"
             if goal.is_over
-            else f"a child has been silent for {PATIENCE + 2.0:g} s, and nobody cancelled it{_complaint(parent)}",
-            f"a cancel after {PATIENCE:g} s",
+            else f"the child has given no feedback for {PATIENCE + 2.0:g} s, but it received no cancel request"
+            f"{_error_in_log(parent)}",
+            f"a cancel request to the child after {PATIENCE:g} s without feedback",
             "call child.cancel_goal_async() before you end the errand: the child may still walk"
             if goal.is_over
             else "compare time.monotonic() - self.heard with PATIENCE in every round",
         )
-    outcome = _end_of(goal, parent, PATIENCE + TO_END, "the silent child was cancelled")
+    outcome = _end_of(goal, parent, PATIENCE + END_TIMEOUT, "the silent child was cancelled")
     expect(
         _has_ended(legs, 0),
-        seen=f"the errand ended {outcome.status} at once, and its child a second later{_complaint(parent)}",
-        expected="the child's end first: this one is mute, and not dead",
-        next="after the cancel, wait_for(end, PATIENCE)",
+        seen=f"the errand ended {outcome.status} at once, but its child ended a second later{_error_in_log(parent)}",
+        expected="the child ends first: it gives no feedback, but it still responds to a cancel",
+        next="call wait_for(end, PATIENCE) after the cancel request",
     )
     _require_abort(outcome, parent)
     return str(outcome.result.error_msg)
@@ -165,122 +172,121 @@ def _gives_up_the_mute() -> str:
 
 def _require_abort(outcome: Outcome, parent: StudentNode) -> None:
     expect(
-        outcome.status == "ABORTED" and "event CANCELED" not in _complaint(parent),
-        seen=f"the errand ended {outcome.status}{_complaint(parent)}",
-        expected="ABORTED, by your own call",
-        next="end it with goal_handle.abort(): nobody has cancelled it",
+        outcome.status == "ABORTED" and "event CANCELED" not in _error_in_log(parent),
+        seen=f"the errand ended {outcome.status}{_error_in_log(parent)}",
+        expected="ABORTED, by your own call of goal_handle.abort()",
+        next="end it with goal_handle.abort(): the errand was not cancelled",
     )
     expect(
         "go_ahead" in outcome.result.error_msg,
-        seen=f"ABORTED with error_msg {outcome.result.error_msg!r}{_complaint(parent)}",
-        expected="a sentence that names go_ahead",
-        next="call goal_handle.abort(), once, and return WalkTo.Result(error_msg=…): "
-        "the client of errand knows no other name",
+        seen=f"ABORTED with error_msg {outcome.result.error_msg!r}{_error_in_log(parent)}",
+        expected="an error_msg that names go_ahead",
+        next="call goal_handle.abort() once, and return WalkTo.Result(error_msg=…) with the name go_ahead in it",
     )
 
 
 def finds_the_way_out() -> str:
-    """Ask for the way out of each step."""
+    """Call way_out() for each step."""
     program = read_program("way_out.py")
     come, lift, carry, lower = program["STEPS"]
-    empty = "the hand is empty: stop the legs, and nothing follows"
+    empty = "the hand is empty: stop the legs; no further step is needed"
     cases: tuple[tuple[str, tuple[bool, list[str]], str], ...] = (
         (come, (True, []), empty),
         (lift, (True, [lower]), "the hand has the glass: stop the arm, and lower the glass"),
         (carry, (True, [lower]), "the hand has the glass: stop the legs, and lower the glass"),
-        (lower, (False, []), "the glass is almost down: let the arm finish, and nothing follows"),
+        (lower, (False, []), "the glass is almost down: let the arm finish; no further step is needed"),
     )
     for step, wanted, reason in cases:
-        got = asked(partial(program["way_out"], step), "way_out.py")
+        got = run_student_code(partial(program["way_out"], step), "way_out.py")
         is_pair = isinstance(got, tuple | list) and len(got) == 2 and isinstance(got[1], tuple | list)
         expect(
             is_pair,
-            seen=f"{got!r} for {step!r}",
+            seen=f"way_out({step!r}) returned {got!r}",
             expected=f"{wanted!r}",
-            next="end each path with `return`, True or False, and a list of steps",
+            next="end each path with `return` and a pair: True or False, and a list of steps",
         )
         stop, then = got
         expect(
             (bool(stop), list(then)) == wanted,
-            seen=f"{(stop, list(then))!r} for {step!r}",
+            seen=f"way_out({step!r}) returned {(stop, list(then))!r}",
             expected=f"{wanted!r}",
             next=reason,
         )
-    return "a way out of each of the four steps"
+    return "the right way out of each of the four steps"
 
 
 def _start(file: str, how: str) -> tuple[StudentNode, StudentNode]:
-    """Start the student's parent beside legs that are played."""
+    """Start the student's errand server beside the scripted legs."""
     stop_nodes()
-    legs = run_node(LEGS, how)
+    legs = run_node(LEGS_PROGRAM, how)
     return run_node(file), legs
 
 
 def _under_way(parent: StudentNode, seconds: float) -> Goal:
-    """Send errands until the child of one is at work, and return that one."""
+    """Send errands until the child of one of them gives feedback, and return that errand."""
     goal = WalkTo.Goal()
     goal.target_pose.header.frame_id = "base_link"
     goal.target_pose.pose.position.x = float(seconds)
-    for _ in range(TRIES):
+    for _ in range(MAX_ERRANDS):
         sent = send_goal("errand", WalkTo, goal)
-        comes_true(partial(_is_decided, sent, parent), TO_BEGIN)
+        becomes_true(partial(_has_begun_or_ended, sent, parent), FIRST_FEEDBACK_TIMEOUT)
         if sent.feedback and not sent.is_over:
             return sent
-        if not (sent.is_over and NOT_MET in sent.result(show_feedback=False).result.error_msg):
+        if not (sent.is_over and NO_RESPONSE in sent.result(show_feedback=False).result.error_msg):
             break
     if not sent.is_over:
         raise not_yet(
-            f"no feedback of go_ahead; the errand is {sent.status}{_complaint(parent)}",
-            "an errand under way",
-            "look at server.log()",
+            f"go_ahead gave no feedback; the errand is {sent.status}{_error_in_log(parent)}",
+            "feedback from go_ahead",
+            "read the node's log: print(server.log())",
         )
     raise not_yet(
-        f"the errand ended {_status(sent)} while its child was at work{_complaint(parent)}",
+        f"the errand ended {_status(sent)} while its child was still active{_error_in_log(parent)}",
         "an errand that waits for its child",
-        "wait until end.done(), and end the goal nowhere before",
+        "wait until end.done() is true, and make no terminal call before that",
     )
 
 
-def _is_decided(goal: Goal, parent: StudentNode) -> bool:
-    """Whether the child of an errand is at work, or will not be."""
+def _has_begun_or_ended(goal: Goal, parent: StudentNode) -> bool:
+    """Whether the child of an errand gives feedback, or never will."""
     return bool(goal.feedback) or goal.is_over or not parent.is_running
 
 
-def _end_of(goal: Goal, parent: StudentNode, seconds: float, why: str) -> Outcome:
-    comes_true(lambda: goal.is_over or not parent.is_running, seconds)
+def _end_of(goal: Goal, parent: StudentNode, seconds: float, situation: str) -> Outcome:
+    becomes_true(lambda: goal.is_over or not parent.is_running, seconds)
     if goal.is_over:
         return goal.result(show_feedback=False)
     raise not_yet(
-        f"{why}, and {seconds:g} s later the errand is {goal.status}{_complaint(parent)}",
-        "its end",
+        f"{situation}; {seconds:g} s later the errand is still {goal.status}{_error_in_log(parent)}",
+        "an errand that has ended",
         "end the branch with a terminal call and `return WalkTo.Result(…)`; wait only with a limit, "
         "wait_for(end, PATIENCE)",
     )
 
 
 def _events(legs: StudentNode) -> list[str]:
-    """What the played legs have told so far."""
+    """Return the events that the scripted legs have printed so far."""
     return [json.loads(line)["what"] for line in legs.log().splitlines() if line.startswith("{")]
 
 
-def _has_told(legs: StudentNode, since: int, what: str) -> bool:
-    """Whether the legs have told this, after so many other events."""
+def _has_reported(legs: StudentNode, since: int, what: str) -> bool:
+    """Whether the legs have reported this event; the first `since` events do not count."""
     return what in _events(legs)[since:]
 
 
 def _has_ended(legs: StudentNode, since: int) -> bool:
-    """Whether the cancelled child has ended, or what it told of that is just on its way here."""
-    return comes_true(lambda: _has_told(legs, since, "CANCELED"), CHILD_NEEDS / 2)
+    """Whether the cancelled child has ended; waits a moment for its report."""
+    return becomes_true(lambda: _has_reported(legs, since, "CANCELED"), CHILD_CANCEL_DURATION / 2)
 
 
 def _status(goal: Goal) -> str:
     return goal.result(show_feedback=False).status if goal.is_over and goal.accepted else goal.status
 
 
-def _complaint(node: StudentNode) -> str:
-    """Return the last error in a node's log, to put behind what was seen."""
+def _error_in_log(node: StudentNode) -> str:
+    """Return the last error in a node's log as the end of a `seen` sentence; "" without an error."""
     error = last_error(node.log(), node.file.name)
-    return f"; its log says: {error}" if error else ""
+    return f"; the node's log says: {error}" if error else ""
 
 
 GAPS = (

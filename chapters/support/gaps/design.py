@@ -1,4 +1,4 @@
-"""Chapter 12: the design of links. It has no gaps: a person marks a design."""
+"""Chapter 12: a design. It has no gaps, because an instructor marks the design."""
 
 from lab.learning.gap import Gap
 

@@ -9,52 +9,64 @@ from itertools import pairwise
 from typing import Any
 
 from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_checks import asked, read_program
+from lab.learning.gap_check_helpers import read_program, run_student_code
 
-RATE = 20  # Hz, of odom
+ODOM_RATE = 20  # Hz
 SPEED = 0.35  # m/s, of the robot
-SWAY, PERIOD = 0.03, 0.88  # m to each side, s for two steps
+SWAY, SWAY_PERIOD = 0.03, 0.88  # m to each side, s for two steps
 MAX_PATH_ERROR_RATIO = 0.15  # of the distance really walked
-MOST_SWAY = 0.25  # m that an odometer may count for a robot that marches on the spot
-MARCH = 30.0  # s
-SHORT = 0.01  # m, shorter than most pieces of the march
+MAX_COUNTED_SWAY = 0.25  # m, for a robot that steps on the spot
+MARCH_DURATION = 30.0  # s
+SHORT_PIECE = 0.01  # m, less than the distance between most points of the march
 
 
 def decides_the_phase() -> str:
-    """Ask for the next phase in one situation after the other."""
+    """Call next_phase() in several situations."""
     program = read_program("route.py")
     turn, walk, there = (program[name] for name in ("TURN", "WALK", "THERE"))
     situations = (
-        (walk, 1.5, 0.0, walk, "the distance is over REACH: go on walking"),
-        (walk, 1.5, 0.3, walk, "the robot walks and the bearing is below ASTRAY: it steers while it walks"),
-        (walk, 1.5, 0.8, turn, "a bearing over ASTRAY ends the walking"),
+        (walk, 1.5, 0.0, walk, "the distance is over REACH: return WALK"),
+        (walk, 1.5, 0.3, walk, "in phase WALK a bearing below ASTRAY is allowed: return WALK"),
+        (walk, 1.5, 0.8, turn, "a bearing over ASTRAY ends the phase WALK: return TURN"),
         (walk, 1.5, -0.8, turn, "a bearing to the right is negative: compare abs(bearing)"),
-        (turn, 1.5, -0.3, turn, "a robot that turns goes on until the bearing is below ALIGNED"),
-        (turn, 1.5, 0.1, walk, "the bearing is below ALIGNED: walk"),
+        (turn, 1.5, -0.3, turn, "in phase TURN the bearing must get below ALIGNED: return TURN until then"),
+        (turn, 1.5, 0.1, walk, "the bearing is below ALIGNED: return WALK"),
         (
             turn,
             0.5,
             1.2,
             turn,
-            "near is not enough: the robot has to look at the point, so ask for the bearing first",
+            "near the point the robot must also face it: check the bearing before the distance",
         ),
-        (turn, 0.5, 0.05, there, "the distance is below REACH and the robot looks at the point"),
-        (walk, 0.55, 0.3, there, "it walked, and the bearing is below ASTRAY: it is there"),
-        (there, 0.7, 0.05, walk, "a push took the robot away: the distance is over REACH"),
+        (
+            turn,
+            0.5,
+            0.05,
+            there,
+            "the distance is below REACH and the bearing is below ALIGNED: return THERE",
+        ),
+        (
+            walk,
+            0.55,
+            0.3,
+            there,
+            "in phase WALK a bearing below ASTRAY is allowed, and the robot is near: return THERE",
+        ),
+        (there, 0.7, 0.05, walk, "the robot was pushed away and the distance is over REACH: return WALK"),
     )
     for phase, distance, bearing, wanted, reason in situations:
-        got = asked(partial(program["next_phase"], phase, distance, bearing), "route.py")
+        got = run_student_code(partial(program["next_phase"], phase, distance, bearing), "route.py")
         expect(
             got == wanted,
-            seen=f"{got!r} for phase {phase!r}, {distance} m and a bearing of {bearing} rad",
+            seen=f"next_phase({phase!r}, {distance}, {bearing}) returned {got!r}",
             expected=repr(wanted),
             next="end each path with `return` and a phase" if got is None else reason,
         )
     return f"the right phase in {len(situations)} situations, one of them after a push"
 
 
-def forgets_the_sway() -> str:
-    """Walk four paths, each with the sway of the pelvis, and compare the distances."""
+def leaves_out_the_sway() -> str:
+    """Compute the length of four paths that contain the sway of the pelvis, and compare it with the true length."""
     walked = read_program("odometer.py")["walked"]
     paths = {
         "2 m straight": (2.0, _along([(0, 0), (2, 0)])),
@@ -67,73 +79,78 @@ def forgets_the_sway() -> str:
     naive = _walked_naively(march)
     expect(
         marched < naive / 2,
-        seen=f"{marched:.2f} m for a robot that marches {MARCH:g} s on the spot; all pieces are {naive:.2f} m",
-        expected=f"less than {MOST_SWAY} m",
-        next="do nothing as long as the piece from last to here is shorter than `shortest`; move last only when a "
-        "piece counts",
+        seen=f"walked() returned {marched:.2f} m for a robot that steps on the spot for {MARCH_DURATION:g} s; "
+        f"the sum of all pieces is {naive:.2f} m",
+        expected=f"less than {MAX_COUNTED_SWAY} m",
+        next="skip a piece that is shorter than `shortest`, and set last = here only when you count a piece",
     )
     for name, (truth, _) in paths.items():
         metres = found[name]
         if abs(metres - truth) <= MAX_PATH_ERROR_RATIO * truth:
             continue
         if "back" in name and metres < 0.5:
-            advice = "add up pieces; the distance from the start forgets the way back"
+            advice = "add up the pieces: the distance from the start is small again after the way back"
         elif metres < truth:
-            advice = "add each piece that is long enough to metres with +=, and set last = here then"
+            advice = "add each piece that is long enough to metres with +=, and then set last = here"
         else:
-            advice = "set last = here when a piece counts, or the same metres count again"
+            advice = "set last = here when you count a piece, or the same metres are counted again"
         raise not_yet(
-            f"{metres:.2f} m for {name}", f"{truth:.2f} m, within {MAX_PATH_ERROR_RATIO:.0%}", advice
+            f"walked() returned {metres:.2f} m for {name}",
+            f"{truth:.2f} m, within {MAX_PATH_ERROR_RATIO:.0%}",
+            advice,
         )
     expect(
-        marched <= MOST_SWAY,
-        seen=f"{marched:.2f} m for a robot that marches {MARCH:g} s on the spot",
-        expected=f"at most {MOST_SWAY} m",
-        next="compare with `shortest`: a shorter piece may be sway",
+        marched <= MAX_COUNTED_SWAY,
+        seen=f"walked() returned {marched:.2f} m for a robot that steps on the spot for {MARCH_DURATION:g} s",
+        expected=f"at most {MAX_COUNTED_SWAY} m",
+        next="compare each piece with `shortest`: a shorter one may be sway",
     )
-    everything = float(asked(partial(walked, march, SHORT), "odometer.py"))
+    everything = float(run_student_code(partial(walked, march, SHORT_PIECE), "odometer.py"))
     expect(
         everything > naive / 2,
-        seen=f"{everything:.2f} m for the march with shortest={SHORT}",
+        seen=f"walked() returned {everything:.2f} m for a robot that steps on the spot, with shortest={SHORT_PIECE}",
         expected=f"almost {naive:.2f} m, the sum of all pieces",
         next="compare with the argument `shortest`, not with a number of your own",
     )
-    return f"{', '.join(f'{metres:.2f} m for {name}' for name, metres in found.items())}; {marched:.2f} m for marching"
+    return (
+        f"{', '.join(f'{metres:.2f} m for {name}' for name, metres in found.items())}; "
+        f"{marched:.2f} m for stepping on the spot"
+    )
 
 
-def knows_a_charge() -> str:
-    """Hand in one percentage after the other."""
+def ignores_invalid_percentages() -> str:
+    """Call decide() with valid and invalid percentages."""
     program = read_program("battery_watch.py")
     ignore, cancel, go_on = (program[name] for name in ("IGNORE", "CANCEL", "GO_ON"))
     percentages = (
-        (0.8, go_on, "a charge above LIMIT: go on"),
-        (0.21, go_on, "a charge just above LIMIT: do not round"),
-        (0.19, cancel, "a charge below LIMIT: cancel"),
+        (0.8, go_on, "the charge is above LIMIT: return GO_ON"),
+        (0.21, go_on, "the charge is just above LIMIT: do not round"),
+        (0.19, cancel, "the charge is below LIMIT: return CANCEL"),
         (0.199999, cancel, "do not round: the robot would walk on below LIMIT"),
-        (0.20000000298, go_on, "0.20 as it arrives: use < and do not round"),
-        (0.0, cancel, "0.0 is a charge, an empty battery: let it through with 0.0 <= percentage"),
-        (1.0, go_on, "1.0 is a charge, a full battery: let it through with percentage <= 1.0"),
-        (math.nan, ignore, "every `<` and `>` with NaN is false: ask `not 0.0 <= percentage <= 1.0`"),
-        (17.0, ignore, "17.0 is of a driver that counts to 100: ask `not 0.0 <= percentage <= 1.0`"),
+        (0.20000000298, go_on, "this is 0.20 as a float32: use < and do not round"),
+        (0.0, cancel, "0.0 is a valid charge, an empty battery: allow it with 0.0 <= percentage"),
+        (1.0, go_on, "1.0 is a valid charge, a full battery: allow it with percentage <= 1.0"),
+        (math.nan, ignore, "every `<` and `>` with NaN is false: test `not 0.0 <= percentage <= 1.0`"),
+        (17.0, ignore, "17.0 comes from a driver that counts to 100: test `not 0.0 <= percentage <= 1.0`"),
         (
             -0.05,
             ignore,
-            "a charge below 0 does not exist: ask whether it is one before you compare with LIMIT",
+            "a charge below 0 does not exist: check the range before you compare with LIMIT",
         ),
     )
     for percentage, wanted, reason in percentages:
-        got = asked(partial(program["decide"], percentage), "battery_watch.py")
+        got = run_student_code(partial(program["decide"], percentage), "battery_watch.py")
         expect(
             got == wanted,
-            seen=f"{got!r} for {percentage:g}",
+            seen=f"decide({percentage:g}) returned {got!r}",
             expected=repr(wanted),
             next="end each path with `return` and IGNORE, CANCEL or GO_ON" if got is None else reason,
         )
-    return f"the right answer for {len(percentages)} percentages, three of them no charge"
+    return f"the right decision for {len(percentages)} percentages, three of them invalid"
 
 
 def _walked(walked: Callable[..., Any], points: Iterable[tuple[float, float]]) -> float:
-    return float(asked(partial(walked, list(points)), "odometer.py"))
+    return float(run_student_code(partial(walked, list(points)), "odometer.py"))
 
 
 def _walked_naively(points: Iterable[tuple[float, float]]) -> float:
@@ -142,33 +159,33 @@ def _walked_naively(points: Iterable[tuple[float, float]]) -> float:
 
 
 def _along(corners: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """The path through the corners as odom tells it, 20 times a second, with the sway across."""
+    """Return the path through the corners as odom would publish it, with the sway to both sides."""
     points: list[tuple[float, float]] = []
     for (x, y), (then_x, then_y) in pairwise(corners):
         length = math.dist((x, y), (then_x, then_y))
         ahead = (then_x - x) / length, (then_y - y) / length
-        count = round(length / SPEED * RATE)
+        count = round(length / SPEED * ODOM_RATE)
         for index in range(count + 1):
-            done, aside = index / count * length, _sway(len(points) / RATE)
+            done, aside = index / count * length, _sway(len(points) / ODOM_RATE)
             points.append((x + done * ahead[0] - aside * ahead[1], y + done * ahead[1] + aside * ahead[0]))
     return points
 
 
 def _march() -> Iterator[tuple[float, float]]:
-    """A robot that steps on the spot."""
-    return ((0.01 * math.cos(2 * math.pi * t / PERIOD), _sway(t)) for t in _times(MARCH))
+    """Return the path of a robot that steps on the spot."""
+    return ((0.01 * math.cos(2 * math.pi * t / SWAY_PERIOD), _sway(t)) for t in _times(MARCH_DURATION))
 
 
 def _times(seconds: float) -> list[float]:
-    return [index / RATE for index in range(round(seconds * RATE))]
+    return [index / ODOM_RATE for index in range(round(seconds * ODOM_RATE))]
 
 
 def _sway(t: float) -> float:
-    return SWAY * math.sin(2 * math.pi * t / PERIOD)
+    return SWAY * math.sin(2 * math.pi * t / SWAY_PERIOD)
 
 
 GAPS = (
     Gap("route.py", decides_the_phase),
-    Gap("odometer.py", forgets_the_sway),
-    Gap("battery_watch.py", knows_a_charge),
+    Gap("odometer.py", leaves_out_the_sway),
+    Gap("battery_watch.py", ignores_invalid_percentages),
 )

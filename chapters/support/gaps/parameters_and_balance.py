@@ -17,25 +17,30 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Float64
 
 from lab.client.connection import connection
-from lab.client.waiting import comes_true
+from lab.client.waiting import becomes_true
 from lab.errors import NodeEndedError
 from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_checks import ask, asked, last_words, read_program
+from lab.learning.gap_check_helpers import (
+    call_student_service,
+    last_error_or_line,
+    read_program,
+    run_student_code,
+)
 from lab.running.student_nodes import StudentNode, run_node
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-ASIDE = "/trial"  # a namespace in which no robot hears cmd_vel
-NODE = "/robot/circle"
-WANTED = {"speed": 0.2, "turn": 0.25}  # of start.yaml
-TO_ARRIVE = 3.0  # s for a message
+TRIAL_NAMESPACE = "/trial"  # no robot in it subscribes to cmd_vel
+NODE_NAME = "/robot/circle"
+FILE_VALUES = {"speed": 0.2, "turn": 0.25}  # of start.yaml
+MESSAGE_TIMEOUT = 3.0  # s
 HINTS = {
-    "ZeroDivisionError": "a robot that walks straight turns by 0.0: multiply, do not divide by the turn",
-    "": "mend what this error names: an exception in a callback ends the node",
+    "ZeroDivisionError": "multiply instead of dividing by the turn: it is 0.0 for a robot that walks straight",
+    "": "fix the error that is named here: an exception in a callback ends the node",  # any other exception
 }
 
 
-def decides_about_what_is_asked_for() -> str:
-    """Ask about one set after the other, each with the values as they are."""
+def decides_by_the_new_values() -> str:
+    """Call decide() with several sets of parameters and current values."""
     decide = read_program("decide.py")["decide"]
     straight, wide, half = (
         {"speed": 0.2, "turn": 0.0},
@@ -43,39 +48,54 @@ def decides_about_what_is_asked_for() -> str:
         {"speed": 0.2, "turn": 0.4},
     )
     cases: tuple[tuple[Mapping[str, float], Mapping[str, Any], bool, str], ...] = (
-        (straight, {"speed": 0.3}, True, "a good set: go on to the last line"),
+        (straight, {"speed": 0.3}, True, "this set is allowed: return only for a circle that is too tight"),
         (
             straight,
             {"speed": 0.0},
             True,
-            "a robot that stands walks no circle: multiply, do not divide by the turn",
+            "speed 0.0 with turn 0.0 is allowed: multiply instead of dividing by the turn",
         ),
         (
             wide,
             {"turn": 0.45},
             False,
-            "judge the new value, which is in `parameters`; `now` has the old ones",
+            "check the new value, which is in `parameters`; `now` has the old values",
         ),
-        (half, {"speed": 0.1}, False, "the turn stays 0.4: take what is not in the list from `wanted`"),
+        (
+            half,
+            {"speed": 0.1},
+            False,
+            "the turn stays 0.4: take a value that is not in `parameters` from `wanted`",
+        ),
         (wide, {"turn": -0.45}, False, "a turn to the right is negative: compare with abs(turn)"),
-        (half, {"turn": -0.4}, True, "the same circle to the right: compare with abs(turn)"),
-        (wide, {"turn": 0.45, "speed": 0.2}, True, "lay all new values over the old ones before you judge"),
-        (wide, {"speed": 0.3, "turn": 0.9}, True, "lay all new values over the old ones before you judge"),
-        (half, {"turn": 0.1, "speed": 0.01}, False, "judge after the loop, with all the new values"),
-        (half, {"speed": math.nan}, False, "every `<` and `>` with NaN is false: ask `not speed >= …`"),
-        (half, {"turn": math.nan}, False, "every `<` and `>` with NaN is false: ask `not speed >= …`"),
+        (half, {"turn": -0.4}, True, "the circle to the right has the same radius: compare with abs(turn)"),
+        (
+            wide,
+            {"turn": 0.45, "speed": 0.2},
+            True,
+            "write all new values into `wanted` before you check the radius",
+        ),
+        (
+            wide,
+            {"speed": 0.3, "turn": 0.9},
+            True,
+            "write all new values into `wanted` before you check the radius",
+        ),
+        (half, {"turn": 0.1, "speed": 0.01}, False, "check the radius after the loop, with all new values"),
+        (half, {"speed": math.nan}, False, "every `<` and `>` with NaN is false: test `not speed >= …`"),
+        (half, {"turn": math.nan}, False, "every `<` and `>` with NaN is false: test `not speed >= …`"),
         (
             {**half, "use_sim_time": False},
             {"use_sim_time": True},
             True,
-            "every node has parameters that are not yours: let them through",
+            "every node has parameters that you did not declare: accept them",
         ),
     )
     for now, new, wanted, advice in cases:
         given = dict(now)
         parameters = [Parameter(name, value=value) for name, value in new.items()]
-        result = asked(partial(decide, given, parameters), "decide.py", hints=HINTS)
-        about = f"{_words(new)} on top of {_words(now)}"
+        result = run_student_code(partial(decide, given, parameters), "decide.py", hints=HINTS)
+        about = f"the set {_words(new)} while the node has {_words(now)}"
         expect(
             isinstance(result, SetParametersResult),
             seen=f"{result!r} for {about}",
@@ -90,48 +110,49 @@ def decides_about_what_is_asked_for() -> str:
         )
         expect(
             result.successful == wanted,
-            seen=f"{'accepted' if result.successful else 'refused'}: {about}",
-            expected="accepted" if wanted else "refused",
+            seen=f"decide() {'accepts' if result.successful else 'refuses'} {about}",
+            expected="the set is accepted" if wanted else "the set is refused",
             next=advice,
         )
         expect(
             result.successful or result.reason.strip(),
-            seen=f"{about} is refused without a reason",
+            seen=f"without a reason, decide() refuses {about}",
             expected="a reason for people",
-            next="give SetParametersResult a reason=…, too",
+            next="pass a reason=… to SetParametersResult, too",
         )
     refused = sum(not wanted for _, _, wanted, _ in cases)
     return f"{len(cases) - refused} sets accepted, {refused} refused with a reason, two of them NaN"
 
 
-def sees_every_set() -> str:
-    """Start guarded.py with good values, set some, and start it again with bad ones."""
+def publishes_for_every_accepted_set() -> str:
+    """Start guarded.py with valid values, set parameters, and start it again with invalid values."""
     with _radii() as radii:
-        node = _started(speed=0.1, turn=0.2)
+        node = _start_or_explain(speed=0.1, turn=0.2)
         expect(
-            comes_true(lambda: radii, TO_ARRIVE),
-            seen="no message on radius after the start",
-            expected="0.5, for a speed of 0.1 and a turn of 0.2",
-            next="call self.apply([]) once, as the last of the four",
+            becomes_true(lambda: radii, MESSAGE_TIMEOUT),
+            seen="no message arrived on radius after the start",
+            expected="0.5 on radius, for a speed of 0.1 and a turn of 0.2",
+            next="call self.apply([]) once, as the last of the four calls",
         )
         refused = _set(node, speed=0.05)
         accepted = _set(node, turn=0.25)
         expect(
             not refused.successful,
-            seen="a speed of 0.05 with a turn of 0.2 was accepted, a circle of 0.25 m",
-            expected="refused",
+            seen="the node accepted a speed of 0.05 with a turn of 0.2, a circle of only 0.25 m",
+            expected="the set is refused",
             next="register self.decide with self.add_on_set_parameters_callback()",
         )
         expect(
             accepted.successful,
-            seen=f"turn 0.25 was refused: {accepted.reason}",
-            expected="accepted",
-            next="register self.decide with add_on_set_parameters_callback, self.apply with add_post_set_…",
+            seen=f"the node refused a turn of 0.25: {accepted.reason}",
+            expected="the set is accepted",
+            next="register self.decide with add_on_set_parameters_callback, and self.apply with "
+            "add_post_set_parameters_callback",
         )
         expect(
-            comes_true(lambda: math.isclose(radii[-1], 0.1 / 0.25), TO_ARRIVE),
-            seen="no new message on radius after an accepted set",
-            expected="0.4, for a speed of 0.1 and a turn of 0.25",
+            becomes_true(lambda: math.isclose(radii[-1], 0.1 / 0.25), MESSAGE_TIMEOUT),
+            seen="no new message arrived on radius after an accepted set",
+            expected="0.4 on radius, for a speed of 0.1 and a turn of 0.25",
             next="register self.apply with self.add_post_set_parameters_callback()",
         )
         number = len(radii)
@@ -139,16 +160,16 @@ def sees_every_set() -> str:
     try:
         node = _start(speed=0.1, turn=0.45)
     except NodeEndedError:
-        return f"{number} messages on radius for the start and one set, and a bad start ended the node"
+        return f"{number} messages on radius for the start and one set; invalid values at the start ended the node"
     raise not_yet(
-        "started with -p speed:=0.1 -p turn:=0.45, the node runs: nobody asked self.decide",
-        "a node that ends with InvalidParameterValueException",
-        "register self.decide before self.declare(): each declaration is a set",
+        "started with -p speed:=0.1 -p turn:=0.45, the node runs: self.decide was not called for these values",
+        "the node ends with InvalidParameterValueException",
+        "register self.decide before self.declare(): each declaration is a set, too",
     )
 
 
 def starts_from_the_file() -> str:
-    """Start guarded.py with start.yaml, and ask what it has."""
+    """Start guarded.py with start.yaml, and read its parameters."""
     text = Path("start.yaml").read_text(encoding="utf-8")
     try:
         node = run_node("guarded.py", "--ros-args", "--params-file", "start.yaml")
@@ -157,135 +178,165 @@ def starts_from_the_file() -> str:
         raise not_yet(
             f"the node ended at once: {reason}", "a node that starts", _about_the_file(text)
         ) from None
-    values = ask(
-        node, "circle/get_parameters", GetParameters, GetParameters.Request(names=list(WANTED))
+    values = call_student_service(
+        node, "circle/get_parameters", GetParameters, GetParameters.Request(names=list(FILE_VALUES))
     ).values
-    found = {name: value.double_value for name, value in zip(WANTED, values, strict=True)}
+    found = {name: value.double_value for name, value in zip(FILE_VALUES, values, strict=True)}
     expect(
-        found == WANTED,
-        seen=f"the node has {_words(found)}",
-        expected=_words(WANTED),
+        found == FILE_VALUES,
+        seen=f"the node's parameters are {_words(found)}",
+        expected=_words(FILE_VALUES),
         next=_about_the_file(text),
     )
     return f"started with {_words(found)}: a circle of {found['speed'] / found['turn']:.1f} m"
 
 
 def _about_the_file(text: str) -> str:
-    """Say what is wrong with a file of parameters, as a student should mend it."""
-    levels = "three levels, each two spaces further in: the node, ros__parameters, and name: value"
+    """Return the advice on how to correct a parameter file."""
+    levels = "three levels, each indented by two more spaces: the node, ros__parameters, and name: value"
     try:
         content = yaml.safe_load(text)
     except yaml.YAMLError:
-        return f"this is no YAML: write {levels}; a space follows each colon"
+        return f"the file is not valid YAML: write {levels}, with a space after each colon"
     if not isinstance(content, dict):
-        return f"write {levels}; a space follows each colon"
-    if NODE not in content and "/**" not in content:
-        return f"the first line is the node's full name, {NODE}:"
-    section = content[NODE] if NODE in content else content["/**"]
+        return f"write {levels}, with a space after each colon"
+    if NODE_NAME not in content and "/**" not in content:
+        return f"begin the file with the node's full name, {NODE_NAME}:"
+    section = content[NODE_NAME] if NODE_NAME in content else content["/**"]
     if not isinstance(section, dict) or "ros__parameters" not in section:
-        return f"below the node stands ros__parameters: with two underscores; write {levels}"
+        return f"write ros__parameters: with two underscores below the node's name; write {levels}"
     if not isinstance(section["ros__parameters"], dict):
-        return f"a space follows each colon; write {levels}"
+        return f"write a space after each colon; write {levels}"
     parameters = section["ros__parameters"]
-    for name, value in WANTED.items():
+    for name, value in FILE_VALUES.items():
         if name not in parameters:
-            return f"there is no {name} below ros__parameters; a name that nobody declares is ignored"
+            return f"add {name} below ros__parameters; a parameter that the node does not declare is ignored"
         if not isinstance(parameters[name], float):
-            return f"{name} has to be a double, such as {value}"
-    return f"write speed: {WANTED['speed']} and turn: {WANTED['turn']}"
+            return f"make {name} a double, such as {value}"
+    return f"write speed: {FILE_VALUES['speed']} and turn: {FILE_VALUES['turn']}"
 
 
-def _started(**values: float) -> StudentNode:
-    """Start guarded.py with good values."""
+def _start_or_explain(**values: float) -> StudentNode:
+    """Start guarded.py with valid values.
+
+    Raises GapError when the node ends at once; the message says what to do.
+    """
     try:
         return _start(**values)
     except NodeEndedError as problem:
-        reason = last_words(str(problem), "guarded.py")
+        reason = last_error_or_line(str(problem), "guarded.py")
         if "NotDeclared" in reason:
             advice = (
                 "self.apply needs both parameters: call self.declare(), then register self.apply with "
-                "add_post_set_parameters_callback, then call it"
+                "add_post_set_parameters_callback, then call self.apply([])"
             )
         elif "invalid type" in reason:
             advice = (
-                "self.decide says yes or no: it belongs to add_on_set_…; self.apply belongs to add_post_set_…"
+                "register self.decide, which accepts or refuses, with add_on_set_parameters_callback, and self.apply "
+                "with add_post_set_parameters_callback"
             )
         else:
-            advice = "mend what this error names"
+            advice = "fix the error that is named here"
         raise not_yet(f"the node ended at once: {reason}", "a node that runs", advice) from None
 
 
 def _start(**values: float) -> StudentNode:
     given = [word for name, value in values.items() for word in ("-p", f"{name}:={value}")]
-    return run_node("guarded.py", "--ros-args", "-r", f"__ns:={ASIDE}", *given)
+    return run_node("guarded.py", "--ros-args", "-r", f"__ns:={TRIAL_NAMESPACE}", *given)
 
 
 def _set(node: StudentNode, **values: float) -> SetParametersResult:
     request = SetParameters.Request(
         parameters=[Parameter(name, value=value).to_parameter_msg() for name, value in values.items()]
     )
-    return ask(node, f"{ASIDE}/circle/set_parameters", SetParameters, request).results[0]
+    return call_student_service(
+        node, f"{TRIAL_NAMESPACE}/circle/set_parameters", SetParameters, request
+    ).results[0]
 
 
 @contextmanager
 def _radii() -> Iterator[list[float]]:
-    """Give the list of what arrives on the node's topic radius."""
+    """Subscribe to the node's topic radius while the block runs; yield the list of received values."""
     radii: list[float] = []
 
     def keep(message: Float64) -> None:
         radii.append(message.data)
 
-    ear = connection().node.create_subscription(Float64, f"{ASIDE}/radius", keep, LATCHED)
+    subscription = connection().node.create_subscription(Float64, f"{TRIAL_NAMESPACE}/radius", keep, LATCHED)
     try:
         yield radii
     finally:
-        connection().node.destroy_subscription(ear)
+        connection().node.destroy_subscription(subscription)
 
 
 def _words(values: Mapping[str, Any]) -> str:
     return ", ".join(f"{name} {value}" for name, value in values.items())
 
 
-def waits_until_it_lasts() -> str:
-    """Show two conditions at different times, one of them from time 0 on."""
+def waits_for_a_lasting_condition() -> str:
+    """Call lasts() of two objects at several times, for one of them from time 0 on."""
     make = read_program("steady.py")["Steady"]
-    one, other = (asked(partial(make, seconds), "steady.py") for seconds in (0.5, 0.2))
+    one, other = (run_student_code(partial(make, seconds), "steady.py") for seconds in (0.5, 0.2))
     moments: tuple[tuple[Any, float, bool, bool, str], ...] = (
-        (one, 0.0, True, False, "it has only just begun"),
-        (one, 0.3, True, False, "it is so for 0.3 s, not for 0.5 s"),
-        (other, 0.35, False, False, "this is another condition, which is false"),
-        (one, 0.55, True, True, "it is so for 0.55 s, since 0.0: 0.0 is a time, so ask `self.since is None`"),
-        (one, 0.9, True, True, "it still is: keep the first moment"),
-        (one, 1.0, False, False, "it is no longer so"),
-        (one, 1.1, True, False, "it has just begun again: a break sets self.since back to None"),
-        (one, 1.4, False, False, "it is not so"),
-        (other, 1.45, False, False, "this is another condition, which is still false"),
-        (one, 1.5, True, False, "0.4 s ago it was so, but not without a break"),
-        (other, 1.5, True, False, "each object has a moment of its own: keep it in self"),
-        (one, 1.8, True, False, "since 1.5 it is so, for 0.3 s"),
+        (one, 0.0, True, False, "the condition has only just become true: return False"),
+        (one, 0.3, True, False, "the condition has been true for 0.3 s, less than 0.5 s: return False"),
+        (other, 0.35, False, False, "the condition of this second object is false: return False"),
+        (
+            one,
+            0.55,
+            True,
+            True,
+            "the condition has been true for 0.55 s, since 0.0; 0.0 is a valid time, so test `self.since is None`",
+        ),
+        (
+            one,
+            0.9,
+            True,
+            True,
+            "the condition is still true: do not overwrite self.since while it stays true",
+        ),
+        (one, 1.0, False, False, "the condition is false now: return False"),
+        (
+            one,
+            1.1,
+            True,
+            False,
+            "the condition has just become true again: set self.since to None when it is false",
+        ),
+        (one, 1.4, False, False, "the condition is false: return False"),
+        (other, 1.45, False, False, "the condition of this second object is still false: return False"),
+        (
+            one,
+            1.5,
+            True,
+            False,
+            "the condition was false in between: set self.since to None when it is false",
+        ),
+        (other, 1.5, True, False, "each object needs its own start time: store it in self.since"),
+        (one, 1.8, True, False, "the condition has been true for 0.3 s, since 1.5: return False"),
         (
             other,
             1.75,
             True,
             True,
-            "it is so for 0.25 s, and this one asks for 0.2 s: compare with self.seconds",
+            "the condition has been true for 0.25 s, and this object needs 0.2 s: compare with self.seconds",
         ),
-        (one, 2.05, True, True, "it is so for 0.55 s without a break"),
+        (one, 2.05, True, True, "the condition has been true for 0.55 s without a break: return True"),
     )
     for steady, now, is_so, wanted, reason in moments:
-        got = asked(partial(steady.lasts, is_so, now), "steady.py")
+        got = run_student_code(partial(steady.lasts, is_so, now), "steady.py")
         expect(
             got == wanted,
-            seen=f"{got!r} at {now} s from Steady({0.5 if steady is one else 0.2}), with is_so {is_so}",
+            seen=f"lasts({is_so}, {now}) of Steady({0.5 if steady is one else 0.2}) returned {got!r}",
             expected=repr(wanted),
             next="end each path with `return` and True or False" if got is None else reason,
         )
-    return "it told what lasts from what only comes by"
+    return f"the right value in {len(moments)} calls: a condition that was false in between starts anew"
 
 
 GAPS = (
-    Gap("decide.py", decides_about_what_is_asked_for),
-    Gap("guarded.py", sees_every_set),
+    Gap("decide.py", decides_by_the_new_values),
+    Gap("guarded.py", publishes_for_every_accepted_set),
     Gap("start.yaml", starts_from_the_file),
-    Gap("steady.py", waits_until_it_lasts),
+    Gap("steady.py", waits_for_a_lasting_condition),
 )

@@ -10,301 +10,308 @@ from typing import Any
 from chapters.support import harness
 from chapters.support.harness.goal_server import REASON, STEPS
 from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_checks import last_words
+from lab.learning.gap_check_helpers import last_error_or_line
 from lab.running.programs import run_program
 from lab.running.student_nodes import run_node
 
-CALLBACKS = f"{harness.__path__[0]}/walk_callbacks.py"
-SERVER = f"{harness.__path__[0]}/goal_server.py"
-MOST = 40.0  # s for a trial; sound lines need up to 6 s
-TOLERANCE = 0.10  # m, as the chapter's file has it
+TRIALS_PROGRAM = f"{harness.__path__[0]}/walk_callbacks.py"
+SERVER_PROGRAM = f"{harness.__path__[0]}/goal_server.py"
+TRIAL_TIMEOUT = 40.0  # s; correct lines need up to 6 s
+TOLERANCE = 0.10  # m, the same as in the chapter's file
 GOAL = 0.5  # m ahead, in the trial
-PERIOD, FASTEST, SLOWEST = 0.2, 0.1, 0.35  # s between feedback messages: asked for, and accepted
-OLD = 0.07  # m by which feedback may differ from the robot: a command moves the toy robot 0.06 m
+PERIOD, MIN_PERIOD, MAX_PERIOD = 0.2, 0.1, 0.35  # s between feedback messages: required, least and most
+MAX_FEEDBACK_ERROR = 0.07  # m; a command moves the toy robot by 0.06 m
 FAILURES = ("ABORTED", "CANCELED", "UNKNOWN")
 TO_ACCEPT = ("1 m in base_link, while the robot stands", "3 m in base_link, while the robot stands")
 ADVICE = {
-    "1 m in base_link, while the robot stands": "end with `return GoalResponse.ACCEPT` for a sound goal",
+    "1 m in base_link, while the robot stands": "end with `return GoalResponse.ACCEPT` for a valid goal",
     "3 m in base_link, while the robot stands": "FARTHEST itself is still allowed: use <=",
-    "a goal before the first odom": "reject while self.pose is None, before you use anything else",
-    "a goal before the first robot_state": "reject while self.state is None, before you read its mode",
+    "a goal before the first odom": "reject while self.pose is None, before you check anything else",
+    "a goal before the first robot_state": "reject while self.state is None, before you read self.state.mode",
     "a goal while the robot walks": "accept only when self.state.mode == RobotState.STANDING",
     "a goal while the robot lies on the floor": "accept only when self.state.mode == RobotState.STANDING",
     "a goal while the motors are off": "accept only when self.state.mode == RobotState.STANDING",
     "1 m in frame odom": 'compare goal.target_pose.header.frame_id with "base_link"',
-    "1 m without a frame": 'an empty frame is not "base_link": reject everything else',
-    "-1 m": "position.x has to be above 0",
-    "0 m": "position.x has to be above 0: use <, not <=",
-    "3.5 m": "position.x has to be at most FARTHEST",
-    "NaN m": "ask whether 0.0 < x <= FARTHEST: with NaN that is false; or ask math.isfinite(x)",
+    "1 m without a frame": 'an empty frame is not "base_link": reject every other frame',
+    "-1 m": "reject unless position.x is above 0",
+    "0 m": "reject unless position.x is above 0: use <, not <=",
+    "3.5 m": "reject unless position.x is at most FARTHEST",
+    "NaN m": "accept only if 0.0 < x <= FARTHEST, which is false for NaN; or test math.isfinite(x)",
 }
 
 
 def rejects_what_cannot_work() -> str:
-    """Ask the goal callback about thirteen goals."""
-    answers = _trial("goals")
-    for answer in answers:
-        case, said = answer["case"], answer["said"]
+    """Call the goal callback with thirteen goals."""
+    trials = _trial("goals")
+    for trial in trials:
+        case, returned = trial["case"], trial["returned"]
         wanted = "ACCEPT" if case in TO_ACCEPT else "REJECT"
-        if said == "None":
+        if returned == "None":
             raise not_yet(
                 f"{case}: the callback returned nothing",
                 f"GoalResponse.{wanted}",
                 "end every path with a return",
             )
         expect(
-            said in ("ACCEPT", "REJECT") or "Error" in said,
-            seen=f"{case}: the callback returned {said}",
+            returned in ("ACCEPT", "REJECT") or "Error" in returned,
+            seen=f"{case}: the callback returned {returned}",
             expected=f"GoalResponse.{wanted}",
-            next="return GoalResponse.ACCEPT or GoalResponse.REJECT; rclpy takes anything else for a rejection",
+            next="return GoalResponse.ACCEPT or GoalResponse.REJECT: rclpy treats any other value as a rejection",
         )
         expect(
-            said == wanted,
-            seen=f"{case}: {said}",
+            returned == wanted,
+            seen=f"{case}: {returned}",
             expected=f"GoalResponse.{wanted}",
-            next="mend what this error names" if "Error" in said and "NoneType" not in said else ADVICE[case],
+            next="fix the error that is named here"
+            if "Error" in returned and "NoneType" not in returned
+            else ADVICE[case],
         )
-    return f"{len(TO_ACCEPT)} goals are accepted, {len(answers) - len(TO_ACCEPT)} rejected"
+    return f"it accepted {len(TO_ACCEPT)} goals and rejected {len(trials) - len(TO_ACCEPT)}"
 
 
-def measures_after_settling() -> str:
-    """Walk a toy robot half a metre; somebody pushes it back when it stops."""
-    (seen,) = _trial("settles")
+def measures_after_the_robot_stands() -> str:
+    """Walk a toy robot half a metre; it is pushed back when it stops for the first time."""
+    (seen,) = _trial("settling")
     returned, ended = seen["returned"], seen["ended"]
     if "had not ended" in returned:
         raise not_yet(
-            "the loop goes round and round and never ends the goal",
-            "SUCCEEDED as soon as it stands within TOLERANCE",
+            "the loop never ends the goal",
+            "SUCCEEDED as soon as the robot stands within TOLERANCE",
             "compare the absolute value: abs(self.distance_left(goal_handle, start)) <= TOLERANCE",
         )
     expect(
         "Error" not in returned,
         seen=f"execute raised {returned}",
-        expected="the result",
+        expected="no exception, and the result",
         next="return the result right after the terminal call"
         if "after succeed" in returned
-        else "mend what this error names",
+        else "fix the error that is named here",
     )
     expect(
         ended,
         seen="execute returned without a terminal call",
-        expected="a success",
+        expected="a call of goal_handle.succeed()",
         next="call goal_handle.succeed() before you return the result",
     )
     expect(
         ended[0] == "succeed",
         seen="the goal was aborted",
-        expected="another approach, and then a success",
-        next="if the robot is not within TOLERANCE, do nothing: the loop goes round",
+        expected="another approach, then goal_handle.succeed()",
+        next="if the robot is not within TOLERANCE, do nothing: the loop calls approach() again",
     )
     expect(
         ended[1] == "standing",
-        seen="SUCCEEDED while the robot was in mid-step",
-        expected="a robot that stands",
+        seen="the goal ended SUCCEEDED while the robot was in mid-step",
+        expected="SUCCEEDED when the robot stands",
         next="call self.stand_still() first",
     )
     expect(
         abs(seen["final"] - GOAL) <= TOLERANCE,
-        seen=f"SUCCEEDED where the robot stands, {abs(seen['final'] - GOAL):.2f} m from the goal",
-        expected=f"another approach, because that is more than {TOLERANCE:.2f} m",
-        next="measure after stand_still(), and succeed only if that is within TOLERANCE",
+        seen=f"the goal ended SUCCEEDED although the robot stands {abs(seen['final'] - GOAL):.2f} m from it",
+        expected=f"another approach, because the distance is more than {TOLERANCE:.2f} m",
+        next="measure the distance after stand_still(), and call succeed() only if it is within TOLERANCE",
     )
     expect(
         returned.startswith("a result"),
-        seen=f"SUCCEEDED, and execute returned {returned}",
+        seen=f"the goal ended SUCCEEDED, but execute returned {returned}",
         expected="the result",
         next="end with `return result`",
     )
     expect(
         returned == f"a result with final_pose {seen['final']:.2f}",
-        seen=f"{returned}, and the robot stands at {seen['final']:.2f}",
-        expected="the pose in which it stands",
+        seen=f"execute returned {returned}, but the robot stands at {seen['final']:.2f}",
+        expected="the pose at which the robot stands, in final_pose",
         next="call self.result(start) after stand_still()",
     )
     expect(
         not seen["filled_late"],
-        seen="succeed(), and then self.result(start)",
-        expected="the result first",
-        next="call self.result(start) before goal_handle.succeed(): if filling the result raises, the client must not "
-        "read SUCCEEDED",
+        seen="succeed() was called before self.result(start)",
+        expected="a filled result before the terminal call",
+        next="call self.result(start) before goal_handle.succeed(): if filling the result raises an exception, the "
+        "goal must not end SUCCEEDED",
     )
-    return "pushed back when it stopped, the robot walked again; SUCCEEDED came when it stood at the goal"
+    return (
+        "the robot was pushed back and walked again; the goal ended SUCCEEDED when it stood within TOLERANCE"
+    )
 
 
 def publishes_feedback() -> str:
     """Receive the feedback while a toy robot walks half a metre, is pushed back, and walks again."""
-    (seen,) = _trial("tells")
-    returned, told = seen["returned"], seen["told"]
+    (seen,) = _trial("feedback")
+    returned, messages = seen["returned"], seen["feedback"]
     expect(
         "Error" not in returned,
         seen=f"execute raised {returned}",
-        expected="the result",
-        next="mend what this error names",
+        expected="no exception, and the result",
+        next="fix the error that is named here",
     )
     expect(
-        len(told) > 1,
-        seen=f"{'one' if told else 'no'} feedback message in the whole walk",
-        expected=f"one every {PERIOD} s",
+        len(messages) > 1,
+        seen=f"{'one' if messages else 'no'} feedback message in the whole walk",
+        expected=f"a feedback message every {PERIOD} s",
         next="call goal_handle.publish_feedback(feedback) in each round, not only in the last",
     )
-    _require_five_a_second([each["t"] for each in told])
-    _require_measured(told, seen["steps"])
-    last = told[-1]
+    _require_five_a_second([each["t"] for each in messages])
+    _require_measured(messages, seen["steps"])
+    last = messages[-1]
     expect(
         last["robot_stands"] and abs(last["robot_x"] - GOAL) <= TOLERANCE,
         seen=f"the last feedback came {abs(last['robot_x'] - GOAL):.2f} m from the goal, before the robot stood",
-        expected="one more when it stands at the goal, before succeed()",
-        next="publish in the last round, too: don't ask for `arrived`",
+        expected="a feedback message when the robot stands at the goal, before succeed()",
+        next="publish in the last round, too: don't skip it when `arrived` is true",
     )
     expect(
         returned.startswith("a result") and seen["ended"][:1] == ["succeed"],
         seen=f"execute returned {returned} after {' '.join(seen['ended'][:1]) or 'no terminal call'}",
-        expected="the result after succeed()",
-        next="don't leave the loop: the lines below it end the goal",
+        expected="execute returns the result after succeed()",
+        next="don't leave the loop in your lines: the lines below the loop end the goal",
     )
-    return f"{len(told)} feedback messages, five a second; the last came from where the robot stands"
+    return f"{len(messages)} feedback messages, five a second; the last one has the pose at which the robot stands"
 
 
 def _require_five_a_second(times: list[float]) -> None:
-    """Require about PERIOD between most messages; when the robot stops, one may come later."""
+    """Require that the median time between messages is about PERIOD; one message may be late when the robot stops."""
     usual = median(after - before for before, after in pairwise(times))
     expect(
-        usual <= SLOWEST,
+        usual <= MAX_PERIOD,
         seen=f"a message every {usual:.1f} s: {1 / usual:.1g} Hz",
-        expected=f"one every {PERIOD} s",
-        next="wait for PERIOD in each round, and only there",
+        expected=f"a message every {PERIOD} s",
+        next="wait once in each round, for PERIOD",
     )
     expect(
-        usual >= FASTEST,
-        seen=f"messages {1000 * usual:.0f} ms after one another",
-        expected=f"one every {PERIOD} s",
-        next="wait after each: time.sleep(PERIOD); a client keeps the last ten only",
+        usual >= MIN_PERIOD,
+        seen=f"a message every {1000 * usual:.0f} ms",
+        expected=f"a message every {PERIOD} s",
+        next="wait after each message with time.sleep(PERIOD): a client keeps the last ten only",
     )
 
 
-def _require_measured(told: list[dict[str, Any]], steps: int) -> None:
-    """Require that each field says what the robot was at, by the last odom and robot_state."""
-    echoed = {each["frame"] for each in told} - {"odom"}
+def _require_measured(messages: list[dict[str, Any]], steps: int) -> None:
+    """Require that each field of the feedback agrees with the robot's pose and steps at that moment."""
+    echoed = {each["frame"] for each in messages} - {"odom"}
     expect(
         not echoed,
         seen="current_pose is the goal's pose, in base_link"
         if "base_link" in echoed
         else "current_pose is empty",
-        expected="where the robot is, in odom",
-        next="current_pose=self.pose: the last odom",
+        expected="the robot's pose in frame odom",
+        next="set current_pose=self.pose, the pose of the last odom message",
     )
     for field, key in (("current_pose", "x"), ("distance_remaining", "left")):
         expect(
-            len({each[key] for each in told}) > 1,
-            seen=f"{field} never changes: {told[0][key]:.2f} m in each of {len(told)} messages",
-            expected="what is measured in that round",
-            next="self.distance_left(goal_handle, start) and self.pose, anew in each round",
+            len({each[key] for each in messages}) > 1,
+            seen=f"{field} never changes: {messages[0][key]:.2f} m in each of {len(messages)} messages",
+            expected="a value that is measured in each round",
+            next="read self.distance_left(goal_handle, start) and self.pose again in each round",
         )
-    negative = next((each for each in told if each["left"] < 0.0), None)
+    negative = next((each for each in messages if each["left"] < 0.0), None)
     expect(
         negative is None,
         seen=f"distance_remaining {negative['left']:.2f} m" if negative else "",
-        expected="a distance, never below 0",
-        next="abs(self.distance_left(goal_handle, start)): it is negative past the goal",
+        expected="a distance that is never below 0",
+        next="use abs(self.distance_left(goal_handle, start)): it is negative past the goal",
     )
-    for each in told:
+    for each in messages:
         expect(
-            abs(each["x"] - each["robot_x"]) <= OLD
-            and abs(each["left"] - abs(GOAL - each["robot_x"])) <= OLD,
-            seen=f"at {each['robot_x']:.2f} m, current_pose says {each['x']:.2f} m and distance_remaining "
-            f"{each['left']:.2f} m",
-            expected=f"{each['robot_x']:.2f} m, and {abs(GOAL - each['robot_x']):.2f} m left",
-            next="self.pose and abs(self.distance_left(goal_handle, start)), after go_on",
+            abs(each["x"] - each["robot_x"]) <= MAX_FEEDBACK_ERROR
+            and abs(each["left"] - abs(GOAL - each["robot_x"])) <= MAX_FEEDBACK_ERROR,
+            seen=f"while the robot was at {each['robot_x']:.2f} m, current_pose was at {each['x']:.2f} m and "
+            f"distance_remaining was {each['left']:.2f} m",
+            expected=f"{each['robot_x']:.2f} m and {abs(GOAL - each['robot_x']):.2f} m",
+            next="read self.pose and abs(self.distance_left(goal_handle, start)) after go_on",
         )
     expect(
-        told[-1]["steps"] == steps,
-        seen=f"steps_taken {told[-1]['steps']} at the end",
+        messages[-1]["steps"] == steps,
+        seen=f"steps_taken {messages[-1]['steps']} at the end",
         expected=f"{steps}, counted from the start of this goal",
-        next="feedback.steps_taken = self.state.steps - start.steps",
+        next="set feedback.steps_taken = self.state.steps - start.steps",
     )
     expect(
-        all(each["seconds"] > 0.0 for each in told if each["left"] > TOLERANCE),
-        seen=f"estimated_time_remaining 0 s, with {told[0]['left']:.2f} m left",
-        expected="the time for that distance at SPEED",
-        next="Duration(seconds=left / SPEED).to_msg()",
+        all(each["seconds"] > 0.0 for each in messages if each["left"] > TOLERANCE),
+        seen=f"estimated_time_remaining 0 s, with {messages[0]['left']:.2f} m left",
+        expected="the time that the robot needs for this distance at SPEED",
+        next="set estimated_time_remaining to Duration(seconds=left / SPEED).to_msg()",
     )
 
 
 def reads_the_status_first() -> str:
-    """Run the client beside a server whose goals succeed, and end in each other way."""
-    run_node(SERVER, "SUCCEEDED", *FAILURES)
+    """Run the client with a server whose first goal succeeds and whose other goals end in each other status."""
+    run_node(SERVER_PROGRAM, "SUCCEEDED", *FAILURES)
     sound, *failed = (run_program("follow.py", "1.0") for _ in ("SUCCEEDED", *FAILURES))
     for how, program in (("SUCCEEDED", sound), *zip(FAILURES, failed, strict=True)):
         expect(
             "Traceback" not in program.stderr,
-            seen=f"{how}: {last_words(program.stderr, 'follow.py')}",
-            expected="a client without a traceback",
-            next="mend what this error names",
+            seen=f"{how}: {last_error_or_line(program.stderr, 'follow.py')}",
+            expected="no traceback",
+            next="fix the error that is named here",
         )
     for how, program in zip(FAILURES, failed, strict=True):
         expect(
             program.exit_status != 0,
-            seen=f"{how}, and the client ended with exit status {program.exit_status}",
+            seen=f"the goal ended {how}, but the client ended with exit status {program.exit_status}",
             expected="exit status 3",
-            next="return 3 unless response.status is GoalStatus.STATUS_SUCCEEDED: CANCELED and UNKNOWN are no "
-            "arrival, either",
+            next="return 3 unless response.status is GoalStatus.STATUS_SUCCEEDED: after CANCELED and UNKNOWN the robot "
+            "has not arrived, either",
         )
     expect(
         sound.exit_status == 0,
-        seen=f"SUCCEEDED, and the client ended with exit status {sound.exit_status}",
+        seen=f"the goal ended SUCCEEDED, but the client ended with exit status {sound.exit_status}",
         expected="exit status 0",
-        next="the status is in response.status, and GoalStatus.STATUS_SUCCEEDED is success",
+        next="return 0 if response.status is GoalStatus.STATUS_SUCCEEDED",
     )
     for how, program in zip(FAILURES, failed, strict=True):
         expect(
             program.exit_status == 3,
-            seen=f"{how}, and the client ended with exit status {program.exit_status}",
+            seen=f"the goal ended {how}, but the client ended with exit status {program.exit_status}",
             expected="exit status 3",
             next="return 3",
         )
         expect(
             REASON in program.stderr or how == "UNKNOWN",
-            seen=f"{how}, and stderr says {program.stderr.strip()!r}",
+            seen=f"the goal ended {how}, and stderr has {program.stderr.strip()!r}",
             expected=f"a line on stderr with the server's error_msg, here {REASON!r}",
-            next="print(…, response.result.error_msg, file=sys.stderr)",
+            next="call print(…, response.result.error_msg, file=sys.stderr)",
         )
         expect(
             str(STEPS) not in program.stdout,
-            seen=f"{how}, and stdout has the steps as if the robot had arrived",
-            expected="nothing on stdout about an arrival",
-            next="look at the status before you print",
+            seen=f"the goal ended {how}, but the client printed the steps on stdout as after an arrival",
+            expected="no steps on stdout",
+            next="check the status before you print",
         )
     expect(
         str(STEPS) in sound.stdout,
-        seen=f"SUCCEEDED, and the last line on stdout is {(sound.stdout.strip().splitlines() or [''])[-1]!r}",
+        seen=f"the goal ended SUCCEEDED, and the last line on stdout is "
+        f"{(sound.stdout.strip().splitlines() or [''])[-1]!r}",
         expected=f"a line with the result's total_steps, here {STEPS}",
         next="print response.result.total_steps",
     )
-    return f"SUCCEEDED: exit status 0 and the steps; {', '.join(FAILURES)}: exit status 3"
+    return f"after SUCCEEDED: exit status 0 and the steps; after {', '.join(FAILURES)}: exit status 3"
 
 
 def _trial(name: str) -> list[dict[str, Any]]:
-    """Run a trial of the student's callbacks; return what it saw.
+    """Run a trial of the student's callbacks in a separate process; return the JSON values that it printed.
 
-    Raises GapError when the program ended before that.
+    Raises GapError when the process printed none.
     """
-    program = run_program(CALLBACKS, name, timeout=MOST)
+    program = run_program(TRIALS_PROGRAM, name, timeout=TRIAL_TIMEOUT)
     seen = [json.loads(line) for line in program.stdout.splitlines() if line.startswith("{")]
     if not seen and program.stopped:
         raise not_yet(
-            f"the callback had not returned after {MOST:.0f} s",
+            f"the callback had not returned after {TRIAL_TIMEOUT:.0f} s",
             "a callback that returns",
-            "look for a loop that does not end",
+            "find the loop that does not end",
         )
     if not seen:
         reason = (program.stderr.strip().splitlines() or ["it printed nothing"])[-1]
-        raise not_yet(f"the program ended: {reason}", "a callback that returns", "mend what this error names")
+        raise not_yet(
+            f"the program ended: {reason}", "a callback that returns", "fix the error that is named here"
+        )
     return seen
 
 
 GAPS = (
     Gap("rejecting_walk.py", rejects_what_cannot_work),
-    Gap("settled_walk.py", measures_after_settling),
+    Gap("settled_walk.py", measures_after_the_robot_stands),
     Gap("told_walk.py", publishes_feedback),
     Gap("follow.py", reads_the_status_first),
 )

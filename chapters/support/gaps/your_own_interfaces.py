@@ -12,7 +12,7 @@ from geometry_msgs.msg import PointStamped
 
 from lab.errors import LabError
 from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_checks import ask
+from lab.learning.gap_check_helpers import call_student_service
 from lab.running.student_nodes import run_node
 from ros_runtime.interface_build.definitions import SEPARATOR, InvalidDefinitions, Part
 from ros_runtime.interface_build.student_package import checked_definitions
@@ -26,14 +26,14 @@ METRE = re.compile(r"#.*\b(m|met(re|er)s?)\b", re.IGNORECASE)
 
 
 def has_a_result() -> str:
-    """Read the definition as the build does, and its comment as people do."""
+    """Parse the definition as the build does, and check the comment that has the unit."""
     result = _result()
     for name, constant in CONSTANTS.items():
         expect(
             result.constants.get(name) == constant,
             seen=_as_written(result),
             expected=f"a constant {constant[0]} {name}={constant[1]}",
-            next=f"write the line `{constant[0]} {name}={constant[1]}`: the = makes it a constant",
+            next=f"write the line `{constant[0]} {name}={constant[1]}`: the = makes {name} a constant",
         )
     for name, kind in FIELDS.items():
         expect(
@@ -45,34 +45,36 @@ def has_a_result() -> str:
     others = sorted(result.fields.keys() - FIELDS.keys())
     expect(
         not others,
-        seen=f"one more field: {', '.join(others)}",
+        seen=f"the result has one more field: {', '.join(others)}",
         expected=f"the fields {', '.join(FIELDS)} and no other",
-        next="take it out: whether the goal succeeded is the goal's status, and error_code says the rest",
+        next="remove it: the goal's status says whether it succeeded, and error_code says why not",
     )
     expect(
         METRE.search(_comments_of("distance_walked")),
         seen="distance_walked without a unit",
-        expected="the unit in a comment, behind the field or above it",
-        next="write # m, and from where to where",
+        expected="the unit in a comment, after the field or above it",
+        next="write the comment # m, and between which two points the distance is measured",
     )
-    return "the build will take it: NONE, FELL, error_code, error_msg and distance_walked, with its unit"
+    return "the build will accept it: NONE, FELL, error_code, error_msg, and distance_walked with its unit"
 
 
 def refuses_another_frame() -> str:
-    """Ask for a point in frame odom, and then for one in shoulder."""
+    """Call can_reach with a point in frame odom, then with one in frame shoulder."""
     try:
         from my_interfaces.srv import CanReach
     except ImportError:
         raise LabError("my_interfaces is not built: run the cell with lab.build_interfaces first") from None
     server = run_node("can_reach.py")
-    hints = {"AttributeError": "mend the name: CanReach.srv has error_code, message and distance"}
-    refused = ask(server, "can_reach", CanReach, CanReach.Request(target=_point("odom")), hints=hints)
+    hints = {"AttributeError": "fix the name: CanReach.srv has error_code, message and distance"}
+    refused = call_student_service(
+        server, "can_reach", CanReach, CanReach.Request(target=_point("odom")), hints=hints
+    )
     codes = CanReach.Response
     expect(
         refused.error_code != codes.SUCCESS,
         seen="error_code SUCCESS for a point in frame odom",
         expected=f"FRAME_TRANSFORM_FAILURE, {codes.FRAME_TRANSFORM_FAILURE}",
-        next="return response inside the `if`: without it the callback goes on and takes the numbers as they are",
+        next="return response inside the `if`: without a return the callback goes on and ignores the frame",
     )
     expect(
         refused.error_code == codes.FRAME_TRANSFORM_FAILURE,
@@ -83,29 +85,34 @@ def refuses_another_frame() -> str:
     expect(
         math.isnan(refused.distance),
         seen=f"distance {refused.distance}",
-        expected="NaN: the server knows no distance, and a field that nobody sets is 0.0",
+        expected="NaN, because the distance is unknown; a field that is not set is 0.0",
         next="set response.distance = math.nan",
     )
     expect(
         "odom" in refused.message,
         seen=f"message {refused.message!r}",
-        expected="a sentence for people that names the frame odom",
-        next="put the variable frame into response.message",
+        expected="a message for people that names the frame odom",
+        next="put the variable `frame` into response.message",
     )
-    answered = ask(server, "can_reach", CanReach, CanReach.Request(target=_point("shoulder")), hints=hints)
+    answered = call_student_service(
+        server, "can_reach", CanReach, CanReach.Request(target=_point("shoulder")), hints=hints
+    )
     expect(
         answered.error_code == codes.SUCCESS,
-        seen=f"in frame shoulder: error_code {answered.error_code}",
-        expected="SUCCESS, 1",
-        next="answer only the wrong frame in the `if`",
+        seen=f"error_code {answered.error_code} for a point in frame shoulder",
+        expected=f"SUCCESS, {codes.SUCCESS}",
+        next="set the error code only inside the `if`",
     )
-    return f"in frame odom it answered {refused.error_code} and distance nan, in frame shoulder {answered.error_code}"
+    return (
+        f"for frame odom it responded error_code {refused.error_code} and distance nan, "
+        f"for frame shoulder error_code {answered.error_code}"
+    )
 
 
 def _result() -> Part:
     """Return the result of the student's action.
 
-    Raises GapError when the build would refuse the definition.
+    Raises GapError when the build would reject the definition.
     """
     try:
         definitions = checked_definitions(Path(PACKAGE), PACKAGE, os.environ)
@@ -113,7 +120,7 @@ def _result() -> Part:
         wrong = [problem for problem in error.problems if problem.file.endswith(f"{ACTION}.action")]
         if not wrong:
             raise LabError(
-                f"another definition of {PACKAGE} is wrong; run its cell first.\n{error}"
+                f"another definition of {PACKAGE} is wrong; correct it and run its cell first.\n{error}"
             ) from None
         first = wrong[0]
         if forgotten := re.match(r"\s*(uint16)\s+(NONE|FELL)\s+(\d+)", first.text):
@@ -121,10 +128,10 @@ def _result() -> Part:
             raise not_yet(
                 f"line {first.line}: {first.text}",
                 f"{kind} {name}={value}",
-                "put = between name and value: it makes a constant of them",
+                "put = between name and value, which makes it a constant",
             ) from None
         seen = f"line {first.line}: {first.text}: {first.wrong}" if first.line else first.wrong
-        raise not_yet(seen, first.expected, "mend that line") from None
+        raise not_yet(seen, first.expected, "fix this line") from None
     return next(each for each in definitions if each.name == ACTION).parts["result"]
 
 
@@ -135,7 +142,7 @@ def _as_written(part: Part) -> str:
 
 
 def _comments_of(field: str) -> str:
-    """Return the comment behind a field of the result, and the comment lines above it."""
+    """Return the line of a field of the result, with the comment lines above it."""
     lines = _section(Path(DEFINITION).read_text(encoding="utf-8").splitlines(), 1)
     at = next(number for number, line in enumerate(lines) if re.match(rf"\s*\S+\s+{field}\b", line))
     first = at

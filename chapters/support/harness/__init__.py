@@ -1,1 +1,1 @@
-"""Programs that checks of gaps run beside a student's file, each in a process of its own."""
+"""Programs that the checks of gaps run in separate processes, to test a student's file."""

@@ -1,8 +1,8 @@
-"""Calls a student's `ask_once` or `ask` beside servers of its own, and prints a line of JSON for each call.
+"""Calls a student's `ask_once` or `ask` with servers of different kinds, and prints a line of JSON for each call.
 
     bounded_calls.py ask_once answering:2.0 silent:0.5
 
-calls it with 2 s at a server that answers, then with 0.5 s at one that does not.
+calls `ask_once` first with a limit of 2 s and a server that responds, then with 0.5 s and one that does not.
 """
 
 from __future__ import annotations
@@ -24,35 +24,39 @@ from rclpy.task import Future
 from rclpy.utilities import remove_ros_args
 from std_srvs.srv import Trigger
 
-NOT_ANSWERED = {"answering": 0, "first_lost": 1, "silent": 1000}  # of the first requests, by kind of server
-WARM_UP = 20.0  # s to find a server
-MOST_REQUESTS = 100
+UNANSWERED_REQUESTS = {  # how many, from the first one on, by kind of server
+    "answering": 0,
+    "first_lost": 1,
+    "silent": 1000,
+}
+WARM_UP_TIMEOUT = 20.0  # s to find a server
+MAX_REQUESTS = 100
 
 
 class Server(Node):
-    """Offers a service of its own; answers only the warm-up until `serve` tells which requests to answer."""
+    """A server that responds to every request until `serve` makes it ignore some."""
 
     def __init__(self, name: str) -> None:
         super().__init__(name)
         self.requests = 0
-        self._not_answered = 0
+        self._unanswered = 0
         self.create_service(Trigger, name, self._on_request, callback_group=ReentrantCallbackGroup())
 
     def serve(self, kind: str) -> None:
-        """Begin to count, and leave the first requests without an answer."""
-        self.requests, self._not_answered = 0, NOT_ANSWERED[kind]
+        """Start counting requests, and ignore the first ones as this kind of server does."""
+        self.requests, self._unanswered = 0, UNANSWERED_REQUESTS[kind]
 
     async def _on_request(self, request: Any, response: Any) -> Any:
         self.requests += 1
-        if self.requests <= self._not_answered:
-            await Future()  # which nobody completes
+        if self.requests <= self._unanswered:
+            await Future()  # never completed, so no response is sent
         response.success = True
         response.message = "here"
         return response
 
 
 def main() -> None:
-    """Make the calls that the arguments ask for."""
+    """Make the calls that the arguments describe."""
     sys.path.insert(0, os.getcwd())
     rclpy.init()
     function, *cases = remove_ros_args()[1:]
@@ -84,13 +88,13 @@ def _try(
         saw["raised"] = f"{type(problem).__name__}: {problem}"
     saw["seconds"] = time.monotonic() - started
     saw["requests"] = server.requests if server else 0
-    saw["kept"] = sum(_is_kept(client, number) for number in range(MOST_REQUESTS))
+    saw["kept"] = sum(_is_kept(client, number) for number in range(MAX_REQUESTS))
     return saw
 
 
 def _warm_up(node: Node, client: Client) -> None:
-    """Ask until an answer comes: from then on no request is lost on its way."""
-    until = time.monotonic() + WARM_UP
+    """Send requests until a response arrives; after that, client and server have discovered each other."""
+    until = time.monotonic() + WARM_UP_TIMEOUT
     while time.monotonic() < until:
         future = client.call_async(Trigger.Request())
         rclpy.spin_until_future_complete(node, future, timeout_sec=0.5)
@@ -107,7 +111,7 @@ def _call(function: str, node: Node, client: Client, seconds: float) -> Any:
 
 
 def _described(returned: Any) -> str | None:
-    """Return "response", None, or what else was returned."""
+    """Describe what the student's function returned: "response", None, or the name of another type."""
     if returned is None or isinstance(returned, Trigger.Response):
         return returned and "response"
     return f"a {type(returned).__name__}"

@@ -1,7 +1,9 @@
-"""Offers the action go_ahead and ends its goals as told, one after the other: `goal_server.py SUCCEEDED UNKNOWN`.
+"""A test double of the action server go_ahead; its arguments are the statuses in which the goals end.
 
-An ActionServer can't play UNKNOWN, a goal that it has forgotten. So this node offers the services and topics that an
-action consists of.
+    goal_server.py SUCCEEDED UNKNOWN     the first goal succeeds, the second one ends with the status UNKNOWN
+
+rclpy's ActionServer can't be made to return UNKNOWN, the status of a goal that it has discarded. So this node offers
+the services and topics that an action consists of.
 """
 
 from __future__ import annotations
@@ -28,7 +30,7 @@ FAILED = WalkTo.Result(total_steps=STEPS, error_code=WalkTo.Result.TIMEOUT, erro
 
 
 def main() -> None:
-    """Serve until Ctrl-C."""
+    """Run the node until Ctrl-C."""
     rclpy.init()
     ends = iter(remove_ros_args()[1:])
     node = Node("goal_server")

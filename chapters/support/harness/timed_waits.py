@@ -1,4 +1,4 @@
-"""Runs a coroutine that waits in a student's node; prints how often its timers called before and after its end.
+"""Runs a waiting coroutine of a student's node, and prints how often the node's timers fired before and after its end.
 
 timed_waits.py awaiting Awaiting wait
 """
@@ -17,13 +17,13 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.task import Future
 from rclpy.utilities import remove_ros_args
 
-WAIT = 0.3  # s, of the coroutine
+WAIT = 0.3  # s that the coroutine is asked to wait
 MAX_WAIT = 5.0  # s, on a busy machine
-AFTERWARDS = 1.0  # s, in which a timer that still runs calls three times
+TIME_AFTER_THE_END = 1.0  # s; a timer that was not destroyed fires three times in it
 
 
 def main() -> None:
-    """Make the node, await the coroutine on one thread, and go on spinning."""
+    """Run the coroutine to its end on one thread, then keep spinning."""
     sys.path.insert(0, os.getcwd())
     rclpy.init()
     module, class_name, coroutine = remove_ros_args()[1:]
@@ -45,7 +45,7 @@ def main() -> None:
     task = executor.create_task(getattr(node, coroutine), WAIT)
     executor.spin_until_future_complete(task, timeout_sec=MAX_WAIT)
     until_the_end = calls
-    executor.spin_until_future_complete(Future(), timeout_sec=AFTERWARDS)
+    executor.spin_until_future_complete(Future(), timeout_sec=TIME_AFTER_THE_END)
     print(json.dumps({"until_the_end": until_the_end, "after": calls - until_the_end}), flush=True)
     rclpy.try_shutdown()
 

@@ -1,4 +1,7 @@
-"""Offers a service of type Trigger: `trigger_server.py forward refuses`, or `grants`, or `ignores` each request."""
+"""Offers a service of type Trigger that refuses, grants or ignores each request.
+
+trigger_server.py forward refuses
+"""
 
 from __future__ import annotations
 
@@ -14,14 +17,14 @@ from std_srvs.srv import Trigger
 
 
 def main() -> None:
-    """Answer until Ctrl-C."""
+    """Run the node until Ctrl-C."""
     rclpy.init()
     _, service, answer = remove_ros_args()
 
     async def on_request(_: Any, response: Any) -> Any:
         if answer == "ignores":
             print("ignored", flush=True)
-            await Future()  # which nobody completes
+            await Future()  # never completed, so no response is sent
         response.success = answer == "grants"
         response.message = f"{service} {answer}"
         return response

@@ -1,1 +1,1 @@
-"""The questions of the chapters, kept out of the notebooks so that the answers are not read along the way."""
+"""The chapters' questions. They are not in the notebooks, so that students do not see the answers while they read."""

@@ -8,16 +8,16 @@ QUESTIONS = (
         (
             Choice(
                 "As if there were no velocities.",
-                "An empty list means that nothing is demanded. A list of zeros is a demand.",
+                "Only an empty list means that no velocities are given. A list of zeros is a list of velocities.",
             ),
             Choice(
                 "It comes to rest at each of the ten points.",
-                "0 rad/s at a point is what you asked for. Leave the list empty, or send velocities that fit.",
+                "You command 0 rad/s at each point. Leave the list empty, or send velocities that fit the motion.",
                 right=True,
             ),
             Choice(
                 "It does not move: its velocity is 0.",
-                "The positions still have to be reached at their times. Between the points it moves.",
+                "The joints still have to reach the positions at their times. So the arm moves between the points.",
             ),
         ),
     ),
@@ -31,11 +31,11 @@ QUESTIONS = (
             ),
             Choice(
                 "Neither: it succeeds, because it is near enough.",
-                "0.2 rad are four times the goal tolerance. With an arm of half a metre they are 10 cm.",
+                "0.2 rad is four times the goal tolerance. At the end of an arm of half a metre it is 10 cm.",
             ),
             Choice(
-                "The goal tolerance, when the time is over and the patience, too.",
-                "On the way 0.2 rad are allowed. At the end they are not.",
+                "The goal tolerance, when the trajectory's time and the server's patience are over.",
+                "On the way an error of 0.2 rad is allowed. At the end it is not.",
                 right=True,
             ),
         ),
@@ -45,72 +45,75 @@ QUESTIONS = (
         (
             Choice(
                 "abort(), then an empty trajectory.",
-                "The status ABORTED goes out at once. Whoever watches it, or has its result from a server in C++, "
-                "may send the next goal, and your empty trajectory would stop that one.",
+                "The status ABORTED is published at once. A client that reads it may send the next goal at once, and "
+                "then your empty trajectory would stop that goal's motion.",
             ),
             Choice(
                 "An empty trajectory, then abort() with a code and the joint's name.",
-                "First the motion ends, then the client learns of it.",
+                "The motion ends first, and only then the client is informed.",
                 right=True,
             ),
             Choice(
                 "abort() with a code; a goal that has ended moves nothing.",
-                "A terminal call is a message to the client. The robot goes on with its trajectory.",
+                "A terminal call only informs the client. The robot goes on with its trajectory.",
             ),
         ),
     ),
     Question(
-        "A trajectory asks for a position outside the joint's range. joint_limits has told you the range. What now?",
+        "A trajectory has a position outside the joint's range, which you know from joint_limits. What does the server "
+        "do?",
         (
             Choice(
                 "Reject the goal.",
-                "You know it before anything moves. Log the reason, because a rejection carries none.",
+                "The server knows the mistake before anything moves. It logs the reason, because a rejection carries "
+                "none.",
                 right=True,
             ),
             Choice(
-                "Bring the position to the end of the range and go on.",
-                "The client would read SUCCEEDED and have an arm somewhere else. Nobody asked for that.",
+                "Clamp the position to the joint's range and go on.",
+                "The client would read SUCCEEDED, but the arm wouldn't be where the client wants it.",
             ),
             Choice(
-                "Accept it; the goal tolerance will find it out.",
-                "It would, after the arm has moved as far as it can. What you know at once, say at once.",
+                "Accept it, because the goal tolerance will detect it.",
+                "It would, but only after the arm has moved as far as it can. Report a mistake as soon as you know it.",
             ),
         ),
     ),
     Question(
-        "The cup is 6 cm wide, and the fingers press with 400 N for each metre that is missing. Each finger is to "
-        "press with 10 N. Which opening do you command?",
+        "The cup is 6 cm wide. The fingers press with 400 N for each metre by which the commanded opening is smaller "
+        "than the cup. Each finger should press with 10 N. Which opening do you command?",
         (
             Choice(
                 "0.035 m.",
-                "10 / 400 = 0.025 m have to be missing. wrench tells whether that became 10 N.",
+                "The opening must be 10 / 400 = 0.025 m smaller than the cup. Read wrench to see whether the force is "
+                "10 N.",
                 right=True,
             ),
             Choice(
                 "0.06 m: that is its width.",
-                "Then nothing is missing, and the fingers touch it with no force.",
+                "Then the opening is as wide as the cup, and the fingers touch it without force.",
             ),
             Choice(
                 "0.0 m: closed.",
-                "6 cm are missing then, which is 24 N: enough to crush a paper cup.",
+                "Then the opening is 6 cm smaller than the cup, which is 24 N: enough to crush a paper cup.",
             ),
         ),
     ),
     Question(
-        "A goal is cancelled while the hand holds a full cup above the floor. Which answer is not sound?",
+        "A goal is cancelled while the hand holds a full cup above the floor. Which reaction is wrong?",
         (
             Choice(
                 "Hold still, keep the cup, CANCELED.",
-                "That is sound: the robot stands, the cup is safe. The documentation has to say that the cup stays in "
-                "the hand.",
+                "This one is right: the robot stands, and the cup is safe. The documentation has to say that the cup "
+                "stays in the hand.",
             ),
             Choice(
                 "Put it down where it was taken, then CANCELED.",
-                "That is sound, as long as it is short and the place is free.",
+                "This one is right, as long as the motion is short and the place is free.",
             ),
             Choice(
                 "Open the hand at once, CANCELED.",
-                "The quickest end of the goal, and the worst for the cup. Safe means: the robot, and what it holds.",
+                "The goal ends quickly, but the cup falls. A cancel must leave both the robot and what it holds safe.",
                 right=True,
             ),
         ),
@@ -124,16 +127,16 @@ PREDICTIONS = (
             Choice(
                 "It passes at a constant speed: the two halves are equally long.",
                 "A sensible guess: that is what happens without velocities. But a velocity of 0 at a point is a "
-                "demand like any other.",
+                "command like any other velocity.",
             ),
             Choice(
                 "The robot ignores the message: with a velocity of 0 nothing can move.",
-                "A sensible guess: 0 rad/s sounds like a speed for the way. But it is the speed at the point, and the "
-                "way has its own.",
+                "A sensible guess: 0 rad/s sounds like the speed of the whole motion. But it is only the speed at that "
+                "point; between the points the joint moves.",
             ),
             Choice(
-                "It comes to rest, and sets out again.",
-                "0 rad/s at 1.5 s is what the message says, so the robot slows down before and speeds up after it.",
+                "It comes to rest, and starts again.",
+                "The message commands 0 rad/s at 1.5 s, so the joint slows down before that and speeds up after it.",
                 right=True,
             ),
         ),
@@ -143,42 +146,43 @@ PREDICTIONS = (
         (
             Choice(
                 "It goes on to its end: the new trajectory does not name it.",
-                "A sensible guess: nobody told it to stop. But the robot follows one trajectory at a time, and in the "
-                "new one the left elbow has no place to go to.",
+                "A sensible guess: no command stops it. But the robot follows one trajectory at a time, and the "
+                "new one has no positions for the left elbow.",
             ),
             Choice(
                 "It stops where it is.",
-                "The new trajectory replaces the old one as a whole. What it does not name holds.",
+                "The new trajectory replaces the old one as a whole. A joint that it doesn't name holds its position.",
                 right=True,
             ),
             Choice(
                 "It goes back to where it was before.",
-                "A sensible guess: what is replaced might be undone. But it is only given up, and the elbow holds.",
+                "A sensible guess: the robot could undo the old trajectory. But it only drops it, and the elbow holds "
+                "its position.",
             ),
         ),
     ),
     Question(
-        "Somebody holds the elbow half way. How does the goal of the server that believes the clock end?",
+        "Somebody holds the elbow half way. The server only waits for the time to pass. How does its goal end?",
         (
             Choice(
                 "SUCCEEDED, after four seconds.",
-                "The sleep was over, and succeed() follows whatever sleep is over.",
+                "The server calls succeed() after its sleep, wherever the elbow is.",
                 right=True,
             ),
             Choice(
                 "ABORTED: the robot notices that it cannot move.",
-                "A sensible guess: the robot has motors that push and joints that do not move. But the topic "
-                "joint_trajectory has no way back, and the server asks nobody.",
+                "A sensible guess: the motors push and the joint doesn't move. But the topic "
+                "joint_trajectory carries no answer, and the server doesn't read joint_states.",
             ),
             Choice(
-                "Not at all: the server waits until the elbow is there.",
-                "A sensible guess: a goal is there to be reached. But this server waits for the clock, not for "
+                "Not at all: the server waits until the elbow arrives.",
+                "A sensible guess: the goal isn't reached. But this server waits for the time to pass, not for "
                 "the elbow.",
             ),
         ),
     ),
     Question(
-        "The goal has been aborted two seconds ago. Now the hand lets go of the elbow. What does the arm do?",
+        "The goal was aborted two seconds ago. Now the hand lets go of the elbow. What does the arm do?",
         (
             Choice(
                 "It jumps to the end of the trajectory.",
@@ -187,12 +191,13 @@ PREDICTIONS = (
             ),
             Choice(
                 "It stays: its goal is over.",
-                "A sensible guess: so it should be. But nobody told the robot. It knows trajectories, and no goals.",
+                "A sensible guess: it should stay. But no message stopped the robot's motion. The robot knows "
+                "only trajectories, and no goals.",
             ),
             Choice(
                 "It goes on from here, as slowly as planned.",
-                "A sensible guess: the way is the same. But a trajectory does not wait for its joints, and its times "
-                "are over.",
+                "A sensible guess: the path is the same. But a trajectory doesn't wait for its joints, and the time of "
+                "its last point has passed.",
             ),
         ),
     ),
@@ -201,7 +206,8 @@ PREDICTIONS = (
         (
             Choice(
                 "In the hand, 10 cm up: the hand is closed.",
-                "A sensible guess: it looks like a grasp. But friction carries the cup, and 0.6 N give too little.",
+                "A sensible guess: it looks like a grasp. But friction carries the cup, and 0.6 N gives too little of "
+                "it.",
             ),
             Choice(
                 "It slips half way and falls.",
@@ -210,7 +216,7 @@ PREDICTIONS = (
             ),
             Choice(
                 "On the table.",
-                "2 · 1.5 · 0.6 N = 1.8 N of friction, and the cup weighs 2.9 N.",
+                "With a friction coefficient of 1.5, two fingers carry 2 · 1.5 · 0.6 N = 1.8 N. The cup weighs 2.9 N.",
                 right=True,
             ),
         ),

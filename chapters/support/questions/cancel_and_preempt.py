@@ -8,17 +8,17 @@ QUESTIONS = (
         (
             Choice(
                 "It is being cancelled: 0 means that there was no error.",
-                "It should mean that, and rclpy's server answers 0 to a refusal, too. The goals that it will cancel "
+                "It should mean that. But rclpy's server also returns 0 when it refuses. The goals that it will cancel "
                 "are in the list, and the list is empty.",
             ),
             Choice(
-                "It goes on as if nobody had asked.",
-                "The server refused, as rclpy's default cancel callback does. Look for your goal in the list.",
+                "It goes on as if there had been no cancel request.",
+                "The server refused, as rclpy's default cancel callback does. Check whether your goal is in the list.",
                 right=True,
             ),
             Choice(
-                "It was over before.",
-                "Then the answer would have been return_code 3, ERROR_GOAL_TERMINATED.",
+                "It had already ended.",
+                "Then the response would have return_code 3, ERROR_GOAL_TERMINATED.",
             ),
         ),
     ),
@@ -27,7 +27,7 @@ QUESTIONS = (
         (
             Choice(
                 "At once, because services have priority over actions.",
-                "No callback has priority: they all wait for the one thread, and the execute callback has it.",
+                "No callback has priority: all of them wait for the only thread, and the execute callback occupies it.",
             ),
             Choice(
                 "During the next time.sleep().",
@@ -35,7 +35,7 @@ QUESTIONS = (
             ),
             Choice(
                 "After the execute callback has returned, which is too late.",
-                "The only thread is free again only then, and the goal has ended: return_code 3.",
+                "Only then the thread is free again. The goal has ended by then, so the return_code is 3.",
                 right=True,
             ),
         ),
@@ -45,12 +45,13 @@ QUESTIONS = (
         (
             Choice(
                 "In the cancel callback: that is what it is for.",
-                "There the goal is still EXECUTING, and from EXECUTING no transition leads to CANCELED: the call "
-                "raises, and the exception ends the node.",
+                "There the goal is still EXECUTING, and from EXECUTING no transition leads to CANCELED. The call "
+                "raises an exception, which ends the node.",
             ),
             Choice(
                 "In the execute callback, as soon as is_cancel_requested is true.",
-                "Right callback, too early: the robot is still in mid-step. CANCELED tells the client that it is safe.",
+                "The callback is right, but the call is too early: the robot is still in mid-step. A client reads "
+                "CANCELED as: the robot is safe.",
             ),
             Choice(
                 "In the execute callback, when the robot stands and the result is filled.",
@@ -60,19 +61,21 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "A newer goal takes the robot. How does the older goal end?",
+        "A newer goal takes over the robot. How does the older goal end?",
         (
             Choice(
                 "PREEMPTED",
-                "There is no such status in action_msgs/GoalStatus. ROS 1 had one, and many texts still speak of it.",
+                "There is no such status in action_msgs/GoalStatus. ROS 1 had one, and many texts still mention it.",
             ),
             Choice(
                 "CANCELED",
-                "CANCELED answers a request to cancel, and nobody sent one. From EXECUTING the call would raise.",
+                "CANCELED is for a goal that a client has cancelled, and no cancel request was sent. Without one, "
+                "canceled() raises an exception.",
             ),
             Choice(
                 "ABORTED, and the result's error_code says PREEMPTED",
-                "The server itself ended the goal, so ABORTED; the code tells the client that nothing is broken.",
+                "The server itself ended the goal, so the status is ABORTED. From the code the client knows that "
+                "nothing is broken.",
                 right=True,
             ),
         ),
@@ -86,7 +89,7 @@ QUESTIONS = (
             ),
             Choice(
                 "No: the robot arrived before it could stop.",
-                "Both sides must expect this race. The status says what happened; a cancel is only a request.",
+                "Client and server must expect this race. A cancel is only a request; the status says what happened.",
                 right=True,
             ),
             Choice(
@@ -100,39 +103,41 @@ QUESTIONS = (
         (
             Choice(
                 "SUCCEEDED and an empty result",
-                "succeed() decided the status, and the exception lost the result. Fill it first, and the same bug "
-                "ends ABORTED.",
+                "succeed() decided the status, and because of the exception no result was returned. If you fill the "
+                "result first, the same bug ends ABORTED.",
                 right=True,
             ),
             Choice(
                 "ABORTED, because an exception aborts the goal",
-                "It does when it comes before the terminal call. The first terminal call counts.",
+                "It does if it is raised before the terminal call. Here succeed() has already decided the status.",
             ),
             Choice(
-                "Nothing: the node is dead",
-                "An exception in a service callback ends spin(); one in an execute callback is caught and logged.",
+                "Nothing: the node has ended",
+                "An exception in a service callback ends spin(). But rclpy catches and logs one in an execute "
+                "callback.",
             ),
         ),
     ),
     Question(
-        "Where does an action server say that the robot has 0.4 m left, and where that it ended at x = 0.97 m?",
+        "Where does an action server report that the robot has 0.4 m left, and where that it ended at x = 0.97 m?",
         (
             Choice(
                 "Both in the feedback, which goes on after the end.",
-                "Feedback is for the way. A client that connects late never sees it, and after the end none comes.",
+                "Feedback reports the progress. After the end none is sent, and a client that connects late misses "
+                "what was sent before.",
             ),
             Choice(
                 "0.4 m in the feedback while the goal is executing, 0.97 m in the result.",
-                "Feedback says how it goes, again and again. The result comes once, with the status, when it is over.",
+                "Feedback reports the progress repeatedly. The result is sent once, with the status, after the end.",
                 right=True,
             ),
             Choice(
-                "Both in the result, which the client asks for again and again.",
-                "A request for the result is answered once, at the end. Until then only feedback speaks.",
+                "Both in the result, which the client requests again and again.",
+                "A request for the result gets one response, at the end. Until then there is only feedback.",
             ),
             Choice(
-                "0.4 m in the goal's answer, 0.97 m in the feedback.",
-                "The answer to a goal holds `accepted` and a time stamp. There is no room for anything else.",
+                "0.4 m in the goal response, 0.97 m in the feedback.",
+                "A goal response has the fields `accepted` and `stamp`, and no others.",
             ),
         ),
     ),
@@ -140,11 +145,11 @@ QUESTIONS = (
 
 PREDICTIONS = (
     Question(
-        "You cancel the turn after its first feedback. Which status has the goal in the end?",
+        "You cancel the turn after its first feedback. Which status does the goal end with?",
         (
             Choice(
                 "CANCELED",
-                "A sensible guess: the loop asks for is_cancel_requested in every round. But this server "
+                "A sensible guess: the loop checks is_cancel_requested in every round. But this server "
                 "has no cancel callback, and rclpy's default one refuses every request. So "
                 "is_cancel_requested never became true.",
             ),
@@ -188,42 +193,42 @@ PREDICTIONS = (
         (
             Choice(
                 "The server accepts the cancel, and the goal ends CANCELED.",
-                "A sensible guess: a cancel has come, and canceled() says so. But the goal is still "
-                "EXECUTING until the callback has said yes. From there canceled() raises, and the "
-                "exception ends the node.",
+                "A sensible guess: canceled() sounds like the way to accept a cancel. But the goal is still "
+                "EXECUTING until the callback has returned ACCEPT. In that state canceled() raises an "
+                "exception, which ends the node.",
             ),
             Choice(
                 "The server refuses the cancel, and the goal goes on.",
-                "A sensible guess: canceled() comes at the wrong moment. But rclpy doesn't turn the "
-                "exception into a refusal. The exception ends spin(), and nobody answers.",
+                "A sensible guess: canceled() is called at the wrong moment. But rclpy doesn't turn the "
+                "exception into a refusal. The exception ends spin(), and no response is sent.",
             ),
             Choice(
                 "The server never answers the cancel.",
-                "Inside the cancel callback the goal is still EXECUTING, so canceled() raises. The "
-                "exception ends spin(), and nobody answers.",
+                "Inside the cancel callback the goal is still EXECUTING, so canceled() raises an exception. It "
+                "ends spin(), and no response is sent.",
                 right=True,
             ),
         ),
     ),
     Question(
-        "The server calls succeed(). After that it fills the result, and that raises an exception. How does "
+        "The server calls succeed(). Then it fills the result, and filling it raises an exception. How does "
         "the goal end for the client?",
         (
             Choice(
                 "ABORTED.",
                 "A sensible guess: rclpy aborts a goal whose execute callback raises before a terminal "
-                "call. But succeed() was that call, and it decided the status. The exception only lost "
-                "the result.",
+                "call. But succeed() was a terminal call, and it decided the status. Because of the exception "
+                "only the result is missing.",
             ),
             Choice(
                 "SUCCEEDED, with the final pose in the result.",
-                "A sensible guess: self.result() fills in the pose before the line that raises. But the "
-                "exception keeps execute from returning that result. The client gets one full of zeros.",
+                "A sensible guess: self.result() fills in the pose before the line that raises. But because of the "
+                "exception execute doesn't return that result. The client gets one full of zeros.",
             ),
             Choice(
                 "SUCCEEDED, with a result full of zeros.",
-                "succeed() decided the status, and the exception lost the result. Nothing on the "
-                "client's side looks wrong.",
+                "succeed() decided the status, and because of the exception no result was returned. The client "
+                "sees nothing wrong.",
                 right=True,
             ),
         ),
@@ -234,18 +239,18 @@ PREDICTIONS = (
         (
             Choice(
                 "It waits until the first has ended.",
-                "A sensible guess: the robot can't turn both ways. But rclpy begins each goal at once, here in a "
-                "thread of its own. If one goal should wait for another, your server has to see to it.",
+                "A sensible guess: the robot can't turn both ways. But rclpy executes each goal at once, here in a "
+                "thread of its own. If one goal should wait for another, you have to program that.",
             ),
             Choice(
                 "The server rejects it.",
-                "A sensible guess: the robot is busy. But only a goal callback rejects a goal, and the one of "
-                "this server doesn't ask whether the robot is busy. Both goals run, each in a thread of its own.",
+                "A sensible guess: the robot is busy. But only a goal callback rejects a goal, and this server's "
+                "goal callback doesn't check whether the robot is busy. Both goals run, each in a thread of its own.",
             ),
             Choice(
                 "It runs beside the first.",
-                "Each goal runs in a thread of its own, and both write to cmd_vel. The robot obeys "
-                "whichever message came last.",
+                "Each goal runs in a thread of its own, and both publish on cmd_vel. The robot follows the "
+                "message that arrived last.",
                 right=True,
             ),
         ),

@@ -8,11 +8,11 @@ QUESTIONS = (
         (
             Choice(
                 "The goal isn't sent before the callback returns.",
-                "It's sent at once: sending needs no executor. The child works, as you have seen.",
+                "It's sent at once: sending needs no executor. As you have seen, the child executes it.",
             ),
             Choice(
-                "The child's answer has to be taken in by the thread that waits for it.",
-                "Only the executor takes answers in, and its only thread is inside your callback.",
+                "Only the thread that waits for the child's answer could receive it.",
+                "Only the executor receives answers, and its only thread is inside your callback.",
                 right=True,
             ),
             Choice(
@@ -22,37 +22,38 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "Your parent has sent the cancel to its child, and the child has agreed. When does the parent call canceled()?",
+        "Your parent has cancelled its child's goal, and the child has accepted the cancel. When does the parent call "
+        "canceled()?",
         (
             Choice(
-                "Now: the child has agreed.",
-                "The child said 'I will try'. The robot is in mid-step, and your client would take it for safe.",
+                "Now: the child has accepted the cancel.",
+                "The child has only promised to try. The robot is in mid-step, but your client would think it's safe.",
             ),
             Choice(
-                "When the child's result has come.",
-                "The result comes when the child's goal has ended. Before that something still moves for you.",
+                "When the child's result has arrived.",
+                "The result arrives when the child's goal has ended. Before that the robot still moves.",
                 right=True,
             ),
             Choice(
-                "Before it asks the child, so that the client needn't wait.",
-                "Then the goal of the child has no owner. If it refuses the cancel, nobody even knows.",
+                "Before it cancels the child's goal, so that the client doesn't have to wait.",
+                "Then nobody watches the child's goal any more. If the child refuses the cancel, nobody notices.",
             ),
         ),
     ),
     Question(
-        "A child has been silent for longer than you wait. You cancel it, and no answer comes. What now?",
+        "A child has given no feedback for longer than your limit. You cancel it, and it doesn't answer. What now?",
         (
             Choice(
-                "Wait on: CANCELED without the child's end would be a lie.",
-                "The dead don't end. Without a limit here, your own client waits forever.",
+                "Keep waiting: CANCELED before the child's end would be false.",
+                "A dead child never ends its goal. Without a limit here, your own client waits forever.",
             ),
             Choice(
                 "Send the goal once more.",
-                "Perhaps the child is only mute, and still at work. Then it gets a second goal.",
+                "The child may still work without sending feedback. Then it gets a second goal.",
             ),
             Choice(
                 "After a limited time, abort, and name the child.",
-                "ABORTED isn't a promise that all is safe. The reason tells people where to look.",
+                "ABORTED doesn't promise that the robot is safe. With the child's name people know where to look.",
                 right=True,
             ),
         ),
@@ -62,12 +63,14 @@ QUESTIONS = (
         (
             Choice(
                 "ABORTED, with the child's name in error_msg.",
-                "Your client asked for no cancel. From EXECUTING no transition leads to CANCELED: canceled() raises.",
+                "Your client has sent no cancel request. From EXECUTING no transition leads to CANCELED, so "
+                "canceled() raises an exception.",
                 right=True,
             ),
             Choice(
                 "CANCELED, like the child.",
-                "Without a cancel request canceled() raises. And it would tell your client that it had asked for it.",
+                "Without a cancel request canceled() raises an exception. And CANCELED would be wrong, because your "
+                "client didn't cancel.",
             ),
             Choice(
                 "Send the goal again, until it succeeds.",
@@ -80,17 +83,18 @@ QUESTIONS = (
         (
             Choice(
                 "Cancel the arm, then put the glass down, then give up.",
-                "The child at work ends first. Then comes the way out that fits what is in the hand. (Only a child "
-                "that puts down what it holds by itself, as the exercise's does, is left to finish.)",
+                "The active child ends first. Then follow the steps that fit what is in the hand. (A child that puts "
+                "down by itself what it holds, as in the exercise, is an exception: let it finish.)",
                 right=True,
             ),
             Choice(
                 "Abort at once: the battery must not get any lower.",
-                "The energy for putting it down is a fraction of a percent. The glass is what you lose.",
+                "Putting the glass down costs a fraction of a percent of the charge. If you abort at once, you may "
+                "lose the glass.",
             ),
             Choice(
                 "Send the lowering at once, and the cancel of the lift afterwards.",
-                "Then two goals command one arm. At most one child is at work at any moment.",
+                "Then two goals command one arm. Only one child may be active at any moment.",
             ),
         ),
     ),
@@ -98,22 +102,23 @@ QUESTIONS = (
 
 PREDICTIONS = (
     Question(
-        "One thread, an errand of 0.8 m, and send_goal() inside execute. What do legs and parent do?",
+        "The parent has one thread and calls send_goal() inside execute, for an errand of 0.8 m. What do the legs and "
+        "the parent do?",
         (
             Choice(
-                "The legs don't walk: the parent blocks before its goal goes out.",
-                "A sensible guess: the executor is busy. But sending is a direct call down to the middleware. Only "
-                "what comes *in* needs the executor.",
+                "The legs don't walk: the parent blocks before its goal is sent.",
+                "A sensible guess: the executor is busy. But to send is a direct call of the middleware. Only "
+                "receiving needs the executor.",
             ),
             Choice(
-                "The legs walk and succeed; the parent never hears of it.",
-                "The goal goes out at once. The answer would have to be taken in by the thread that waits for it.",
+                "The legs walk and succeed, but the parent never receives the answer.",
+                "The goal is sent at once. But only the thread that waits for the answer could receive it.",
                 right=True,
             ),
             Choice(
                 "Both work: rclpy goes on spinning inside send_goal().",
                 "A sensible guess: rclpy has calls that spin while they wait. But this one only waits for an event, "
-                "and leaves the spinning to others.",
+                "and another thread would have to spin.",
             ),
         ),
     ),
@@ -122,37 +127,37 @@ PREDICTIONS = (
         (
             Choice(
                 "It stands: the child is cancelled together with its parent.",
-                "A sensible guess: it would be good manners. But to rclpy they are two goals of two servers, "
-                "and nothing connects them except your code.",
+                "A sensible guess: that would be useful. But for rclpy they are two goals of two servers, "
+                "and only your code connects them.",
             ),
             Choice(
                 "It stands: go_ahead stops when its client has gone.",
-                "A sensible guess: nobody waits for it any more. But the client hasn't gone, only its goal has, and a "
-                "server doesn't look for its client anyway.",
+                "A sensible guess: nobody waits for go_ahead any more. But its client still runs, only the errand's "
+                "goal has ended. And a server doesn't check whether its client exists.",
             ),
             Choice(
-                "It walks on, for nobody.",
-                "Nobody has cancelled go_ahead's goal, so go_ahead carries it out.",
+                "It walks on, although nobody waits for it.",
+                "No cancel request was sent to go_ahead, so go_ahead executes its goal to the end.",
                 right=True,
             ),
         ),
     ),
     Question(
-        "Two errands at once, and legs that take one goal at a time. What becomes of the two?",
+        "You send two errands at once, but the legs accept one goal at a time. What happens to the two errands?",
         (
             Choice(
                 "The second waits until the first is done.",
-                "A sensible guess: there's only one pair of legs. But nobody has written a queue, "
-                "neither in the parent nor in the child.",
+                "A sensible guess: there's only one pair of legs. But neither the parent nor the child has a queue.",
             ),
             Choice(
                 "The second takes the legs over from the first.",
-                "A sensible guess: chapter 7's server did that. But it preempted by lines of its own, and these legs "
+                "A sensible guess: the server of chapter 7 did that. But it had code for preemption, and these legs "
                 "have none.",
             ),
             Choice(
                 "The second is aborted, the first goes on.",
-                "The parent accepts both. The legs reject the second child, so the parent can only give up.",
+                "The parent accepts both. The legs reject the goal of the second errand, so the parent can only abort "
+                "this errand.",
                 right=True,
             ),
         ),
@@ -162,16 +167,17 @@ PREDICTIONS = (
         (
             Choice(
                 "The future of the result raises an exception.",
-                "A sensible guess: a broken TCP connection does that. But an answer of ROS that never comes looks "
-                "like one that comes later.",
+                "A sensible guess: a broken TCP connection does that. But in ROS an answer that never arrives looks "
+                "like one that arrives later.",
             ),
             Choice(
                 "The child's status becomes ABORTED or UNKNOWN.",
-                "A sensible guess: somebody should say so. But the status comes from the server, and it's dead.",
+                "A sensible guess: such a status would be useful. But the server publishes the status, and it's dead.",
             ),
             Choice(
                 "Nothing.",
-                "Feedback stops, and that's all. Only a limit on silence turns it into knowledge.",
+                "Feedback stops, and nothing else happens. Only with a time limit can the errand conclude that the "
+                "legs are dead.",
                 right=True,
             ),
         ),

@@ -12,16 +12,17 @@ QUESTIONS = (
             ),
             Choice(
                 "'Face north'",
-                "Asked twice, it ends the same: idempotent.",
+                "It is idempotent: after two requests the robot faces the same way as after one.",
                 right=True,
             ),
             Choice(
                 "'Toggle the gripper'",
-                "Two toggles are none. Ask for 'open' or 'closed' instead.",
+                "Two toggles cancel each other. Request 'open' or 'closed' instead.",
             ),
             Choice(
                 "None: a retry is always dangerous.",
-                "Careful, but then a single lost message ends every job. Make the request harmless instead.",
+                "That is careful, but then a single lost message makes the job fail. Design a request that may be "
+                "repeated instead.",
             ),
         ),
     ),
@@ -30,7 +31,8 @@ QUESTIONS = (
         (
             Choice(
                 "The late answer to the first request is taken for the answer to the second.",
-                "rclpy matches each response to its own future; the shared variable throws that away.",
+                "rclpy gives each response to its own future, but the shared variable doesn't say to which request an "
+                "answer belongs.",
                 right=True,
             ),
             Choice(
@@ -39,25 +41,25 @@ QUESTIONS = (
             ),
             Choice(
                 "Nothing, because answers come in the order of the requests.",
-                "They often do, and it doesn't help: the old answer comes first, and that is the trouble.",
+                "They often do. That is the problem: the late answer to the first request arrives first.",
             ),
         ),
     ),
     Question(
-        "A node asks a missing server ten times a second and gives each request up without removing it. What "
-        "happens?",
+        "A node sends a request to a missing server ten times a second. It gives each request up without removing it. "
+        "What happens?",
         (
             Choice(
                 "call_async raises an exception, since there is no server.",
-                "A sensible wish. call_async doesn't look for a server: it sends, and the request reaches "
-                "nobody.",
+                "A sensible guess. But call_async doesn't check whether there is a server: it sends the request, "
+                "which reaches nobody.",
             ),
             Choice(
                 "rclpy forgets a request when the limit of spin_until_future_complete is over.",
                 "That limit belongs to the wait, not to the request. The client still expects the answer.",
             ),
             Choice(
-                "The node's memory grows by each request.",
+                "The node's memory grows with each request.",
                 "The client keeps the future of every request that has no answer, until you call "
                 "remove_pending_request or cancel the future.",
                 right=True,
@@ -69,16 +71,16 @@ QUESTIONS = (
         (
             Choice(
                 "Yes: the server has done it.",
-                "It has answered. The answer may say success=False, and why.",
+                "It has only answered. The answer may be success=False, with a reason.",
             ),
             Choice(
                 "Only if response.success is true.",
-                "That there is an answer and what it says are two questions.",
+                "An answer has arrived, but only its content says whether the gripper is closed.",
                 right=True,
             ),
             Choice(
                 "No, because a service can't be trusted.",
-                "Its answer is the best that you have. You have to read it.",
+                "Its answer is the best information that you have. But you have to read it.",
             ),
         ),
     ),
@@ -88,18 +90,18 @@ QUESTIONS = (
         (
             Choice(
                 "Twice the second request.",
-                "That would be so if rclpy sent later. call_async turns the fields into bytes at once, so the "
-                "server gets both. Your own object, though, holds only the second.",
+                "It would, if rclpy sent the object later. But call_async turns the fields into bytes at once, so the "
+                "server gets both requests. Only your own object holds the second one.",
             ),
             Choice(
                 "Both requests as they were; but the object now holds only the second.",
-                "The answers are right. If you print the first answer beside the request object, you print the "
-                "wrong question.",
+                "The answers are right. But if you print the first answer beside the request object, you print it "
+                "beside the second request.",
                 right=True,
             ),
             Choice(
                 "An error: a request may be sent only once.",
-                "rclpy doesn't mind. It counts what it sends, not the objects.",
+                "rclpy allows it: each call_async is a request of its own, whatever object you pass.",
             ),
         ),
     ),
@@ -107,18 +109,18 @@ QUESTIONS = (
         "Two servers offer /robot/where_am_i. What can the client tell from an answer?",
         (
             Choice(
-                "Which of the two has answered: it stands in the response's header.",
-                "Topics of DDS can tell who published. A response that rclpy gives you has the type's fields "
-                "and nothing else.",
+                "Which of the two has answered: the response's header has its name.",
+                "A response that rclpy gives you has the fields of its type and nothing else, so no header with "
+                "a name.",
             ),
             Choice(
-                "Nothing. Both servers have done the work, and the first answer won.",
-                "So count the servers when answers contradict each other.",
+                "Nothing. Both servers have done the work, and the client got the first answer.",
+                "So when answers contradict each other, count the servers.",
                 right=True,
             ),
             Choice(
                 "That the other server hasn't got the request.",
-                "It has. Both get every request, and both carry it out.",
+                "It has received it, too. Both servers get every request, and both carry it out.",
             ),
         ),
     ),
@@ -128,19 +130,19 @@ QUESTIONS = (
         (
             Choice(
                 "A traceback, and exit status 1.",
-                "That's what you get when the code that waited reads future.result(), or when rclpy.spin() runs "
-                "the callback.",
+                "You get these if the error is in the code that reads future.result() after the wait, or if "
+                "rclpy.spin() runs the callback.",
             ),
             Choice(
                 "Nothing: the spin ends before on_answer runs.",
-                "The callback becomes a task of the executor, and nobody spins any more. Read the result "
-                "after the wait instead.",
+                "The executor would run the callback as a task, but nobody spins the executor any more. Read the "
+                "result after the wait instead.",
                 right=True,
             ),
             Choice(
                 "A warning on stderr.",
-                "You get that when you cancel a future which no executor has: rclpy runs the callback at once "
-                "and turns its exception into a warning.",
+                "You get that when you cancel a future that belongs to no executor: then rclpy runs the callback at "
+                "once and turns its exception into a warning.",
             ),
         ),
     ),
@@ -154,25 +156,25 @@ PREDICTIONS = (
             Choice(
                 "A few centimetres.",
                 "A sensible guess: the client set self.answer to None and asked again. But the late "
-                "answer to the first request lands in the same place, and the client takes it for the "
+                "answer to the first request is stored in the same variable, and the client takes it for the "
                 "second.",
             ),
             Choice(
                 "About half a metre.",
-                "The answer to the first request came while the client waited for the second. One "
-                "variable can't tell them apart, so the client prints an old position.",
+                "The answer to the first request arrived while the client waited for the second. Both are "
+                "stored in one variable, so the client prints an old position.",
                 right=True,
             ),
             Choice(
                 "It prints None for the second position too.",
                 "A sensible guess: a server that was slow once may be slow again. But only its first "
-                "answer is late, and it comes while the client waits for the second. The client takes "
-                "one for the other.",
+                "answer is late, and it arrives while the client waits for the second. The client takes "
+                "the first answer for the second.",
             ),
         ),
     ),
     Question(
-        "The client asks forward for 0.3 m. The answer comes after 2.5 s, and the client retries after 2 "
+        "The client requests 0.3 m from forward. The answer arrives after 2.5 s, and the client retries after 2 "
         "s. How far does the robot walk?",
         (
             Choice(
@@ -194,23 +196,23 @@ PREDICTIONS = (
         ),
     ),
     Question(
-        "The robot lies on the floor without power. What do forward.py and go_to.py say?",
+        "The robot lies on the floor without power. What do forward.py and go_to.py print?",
         (
             Choice(
-                "Both say that the service refuses.",
-                "A sensible guess: the service does refuse both requests. But forward.py looks only "
-                "whether there is an answer, and never reads success. It says that the robot walks.",
+                "Both print that the service refuses.",
+                "A sensible guess: the service does refuse both requests. But forward.py only checks "
+                "whether there is an answer, and never reads success. It prints that the robot walks.",
             ),
             Choice(
-                "forward.py says that the robot walks, go_to.py that the service refuses.",
-                "Both get an answer with success false. forward.py looks only whether there is one; "
-                "go_to.py also reads what it says.",
+                "forward.py prints that the robot walks, go_to.py that the service refuses.",
+                "Both get an answer with success false. forward.py only checks whether there is an answer; "
+                "go_to.py also reads success.",
                 right=True,
             ),
             Choice(
-                "Both say that the service doesn't answer.",
-                "A sensible guess: the robot can't do anything without power. But the server is a "
-                "program of its own, and it answers both: success false. forward.py doesn't read that.",
+                "Both print that the service doesn't answer.",
+                "A sensible guess: the robot can't do anything without power. But the server is a separate "
+                "program, and it answers both with success false. forward.py doesn't read that.",
             ),
         ),
     ),
@@ -219,8 +221,8 @@ PREDICTIONS = (
         (
             Choice(
                 "It goes to one of them: the one that was found first.",
-                "A sensible guess: a web client talks to one server. But a ROS request goes to everybody who "
-                "offers the name. Both do the work, and the client gets the first answer.",
+                "A sensible guess: a web client sends its request to one server. But a ROS request goes to every "
+                "server that offers the name. Both do the work, and the client gets the first answer.",
             ),
             Choice(
                 "None: the second server can't start, because the name is taken.",
@@ -229,14 +231,14 @@ PREDICTIONS = (
             ),
             Choice(
                 "Both do the work, and the client gets the first answer.",
-                "The request reaches everybody who offers the name. rclpy gives the first answer to the "
+                "The request reaches every server that offers the name. rclpy gives the first answer to the "
                 "future and drops the other.",
                 right=True,
             ),
         ),
     ),
     Question(
-        "ask_by_callback.py has a typo in on_answer. The server is well. What do you see?",
+        "ask_by_callback.py has a typo in on_answer. The server works. What do you see?",
         (
             Choice(
                 "A traceback, and exit status 1.",
@@ -252,8 +254,8 @@ PREDICTIONS = (
             ),
             Choice(
                 '"The robot is at", and no position.',
-                "A sensible guess: only the field's name is wrong. But if the callback ran, the line would raise "
-                "before it prints. It doesn't even run: spin_until_future_complete returns as soon as the "
+                "A sensible guess: only the field's name is wrong. But that line would raise an exception before it "
+                "prints. And the callback never runs: spin_until_future_complete returns as soon as the "
                 "future is done, and nobody spins after it.",
             ),
         ),

@@ -8,17 +8,17 @@ QUESTIONS = (
         (
             Choice(
                 "Read future.result(): without an answer, rclpy would have raised an exception.",
-                "Sensible, because many libraries do raise one. rclpy doesn't: it returns, result() is "
-                "None, and the next line fails.",
+                "A sensible idea, because many libraries do raise one. rclpy doesn't: the function returns, "
+                "result() is None, and the next line fails.",
             ),
             Choice(
-                "Ask future.done(); if it isn't done, remove the request and treat the outcome as unknown.",
-                "The function only limits the wait. You look whether there is an answer.",
+                "Check future.done(); if it is false, remove the request and treat the outcome as unknown.",
+                "The function only limits the wait. Your code has to check whether there is an answer.",
                 right=True,
             ),
             Choice(
                 "Call it again until the future is done.",
-                "That is waiting forever, in slices of two seconds. A dead server never answers.",
+                "Then you wait forever, two seconds at a time, because a dead server never answers.",
             ),
         ),
     ),
@@ -27,29 +27,29 @@ QUESTIONS = (
         (
             Choice(
                 "The future gets an exception: connection lost.",
-                "With TCP you might see one. A ROS service has no connection that could be lost: the "
-                "future just isn't done.",
+                "With TCP you might see one. A ROS service has no connection that could be lost, so the "
+                "future simply never becomes done.",
             ),
             Choice(
-                "service_is_ready() turns false at once, so the client can stop waiting.",
-                "A server that dies tells nobody. With Fast DDS it looks ready for up to 20 s more, with "
+                "service_is_ready() becomes false at once, so the client can stop waiting.",
+                "A server that is killed sends no notice. With Fast DDS it looks ready for up to 20 s more, with "
                 "Cyclone DDS for up to 10 s.",
             ),
             Choice(
-                "Nothing: the same silence as with a slow server or a lost message.",
+                "Nothing: it looks the same as a slow server or a lost message.",
                 "So your own time limit is the only protection.",
                 right=True,
             ),
         ),
     ),
     Question(
-        "A client has 10 s for two calls, two tries each, 2 s a try. Finding the servers took 5 s, the first "
-        "call 4 s. How long may it wait for the first try of the second call?",
+        "A client has 10 s for two calls. Each call has two tries, and each try takes at most 2 s. Finding the servers "
+        "took 5 s, the first call 4 s. How long may the first try of the second call take?",
         (
             Choice(
                 "2 s, as for every try.",
-                "Then it ends after 11 s, and a second try makes it 13. 2 s is the most that a try may "
-                "take; the deadline leaves less.",
+                "Then the client ends after 11 s, and after 13 s with a second try. A try may take at most 2 s, but "
+                "the deadline leaves less.",
             ),
             Choice(
                 "1 s.",
@@ -58,8 +58,8 @@ QUESTIONS = (
             ),
             Choice(
                 "0.5 s, so that the second try gets as much.",
-                "A fair idea, and a different rule. The one of this chapter gives each step what is left, "
-                "up to its own limit.",
+                "A fair idea, but a different rule. This chapter's rule gives each step all the time that is left, "
+                "up to the step's own limit.",
             ),
         ),
     ),
@@ -69,12 +69,12 @@ QUESTIONS = (
         (
             Choice(
                 "Nothing: both times come from the same clock.",
-                "They do, but the clock was changed between the two.",
+                "They do, but the clock was changed between the two readings.",
             ),
             Choice(
                 "The client may wait a minute longer.",
-                "deadline - now has grown by 60 s. time.monotonic() only ever goes forward, whatever "
-                "anybody sets.",
+                "deadline - now has grown by 60 s. time.monotonic() only goes forward, even when somebody sets "
+                "the system's clock.",
                 right=True,
             ),
             Choice(
@@ -89,7 +89,7 @@ QUESTIONS = (
         (
             Choice(
                 "Exit status 1, since main() returned 1.",
-                "In C it would be so. Python ignores what main() returns unless you hand it on: "
+                "In C that is right. Python ignores what main() returns unless you pass it on: "
                 "sys.exit(main()).",
             ),
             Choice(
@@ -108,18 +108,18 @@ QUESTIONS = (
         (
             Choice(
                 "0, because the call itself worked.",
-                "The call did work, and ros2 service call sees it so, too. But whoever started your client "
+                "The call did work, and ros2 service call would exit with 0, too. But whoever started your client "
                 "wants to know whether the job is done. It isn't.",
             ),
             Choice(
                 "1, and the server's message on stderr.",
-                "0 is for success only, and the message tells a person why it failed.",
+                "0 is for success only, and the message explains to a person why it failed.",
                 right=True,
             ),
             Choice(
-                "None: the client should ask until success is true.",
-                "The server has understood and refused. If you ask again you get the same refusal, and the "
-                "client never ends.",
+                "None: the client should repeat the request until success is true.",
+                "The server received the request and refused. It would refuse again each time, and the "
+                "client would never end.",
             ),
         ),
     ),
@@ -127,22 +127,22 @@ QUESTIONS = (
 
 PREDICTIONS = (
     Question(
-        "The client of the textbooks runs twice. 1: nobody started the server. 2: the server is killed while "
-        "it has the request. How do the two runs end?",
+        "The client of the textbooks runs twice. In the first run there is no server. In the second run the server is "
+        "killed while it has the request. How do the two runs end?",
         (
             Choice(
                 "Both give up with an error after a few seconds.",
-                "A sensible guess: most network programs have a time limit from the start. But rclpy has none "
+                "A sensible guess: most network programs have a time limit by default. But rclpy has none "
                 "unless you pass one, so both clients wait until the lab stops them.",
             ),
             Choice(
                 "The first waits forever; the second gets an error, because its server is gone.",
                 "A sensible guess: a broken TCP connection does raise an error. But a ROS service has no "
-                "connection, and a killed server tells nobody. The second client waits forever, too.",
+                "connection, and a killed server sends no notice. The second client waits forever, too.",
             ),
             Choice(
                 "Neither ends by itself.",
-                "No wait in it has a limit, and nobody tells a client that its server has died.",
+                "The client waits without a limit, and it isn't notified when its server dies.",
                 right=True,
             ),
         ),
@@ -174,30 +174,30 @@ PREDICTIONS = (
         (
             Choice(
                 "It prints None at once: the time is up.",
-                "A sensible guess: you would want that, and rclpy does it with 0.0. But it takes a negative "
-                "limit for no limit, so the client waits.",
+                "A sensible guess: you would want that, and rclpy does so with 0.0. But it treats a negative "
+                "limit as no limit, so the client waits.",
             ),
             Choice(
                 "It ends with a ValueError: a time can't be negative.",
-                "A sensible guess: that would be kinder. But rclpy accepts a negative limit without a word and "
-                "takes it for no limit, so the client waits.",
+                "A sensible guess: that would be more helpful. But rclpy accepts a negative limit without a warning "
+                "and treats it as no limit, so the client waits.",
             ),
             Choice(
                 "It waits without a limit.",
-                "To spin_until_future_complete a negative limit means no limit, like None. So compute "
-                "max(0.0, what is left).",
+                "For spin_until_future_complete a negative limit means no limit, like None. So pass "
+                "max(0.0, the time that is left).",
                 right=True,
             ),
         ),
     ),
     Question(
-        "The fourth server dies while it has the request. A try takes 2 s at most, and there are two. What "
-        "does ask.py say?",
+        "The fourth server dies while it has the request. ask.py makes two tries of at most 2 s. What "
+        "does it print?",
         (
             Choice(
                 '"where_am_i is not there", after a try.',
-                "A sensible guess: the process is gone. But it couldn't say goodbye, so Fast DDS takes it "
-                "for ready for up to 20 s more. The client tries twice and gets no answer.",
+                "A sensible guess: the process is gone. But it couldn't announce its end, so Fast DDS considers it "
+                "ready for up to 20 s more. The client tries twice and gets no answer.",
             ),
             Choice(
                 '"where_am_i looks ready and does not answer", after two tries.',
@@ -219,7 +219,7 @@ PREDICTIONS = (
             Choice(
                 "The new server answers the first request when it is up.",
                 "A sensible guess: the client still exists, so the middleware could send the request again. "
-                "But services keep nothing for servers that come later. The request died with its server, "
+                "But requests aren't stored for servers that start later. The request was lost with its server, "
                 "and a retry gets the answer.",
             ),
             Choice(
@@ -229,8 +229,8 @@ PREDICTIONS = (
             ),
             Choice(
                 "The first request is lost, and a retry is answered.",
-                "A client asks whoever offers the name. The request died with the old server; the new one "
-                "answers the next try.",
+                "A client's request goes to every server that offers the name. The first request was lost with the old "
+                "server; the new server answers the next try.",
                 right=True,
             ),
         ),

@@ -14,8 +14,8 @@ PREDICTIONS = (
             ),
             Choice(
                 "3 s, and then the 30 missed beats come at once.",
-                "A sensible guess: messages in a queue would come like that. But a timer has no queue. rclpy calls it "
-                "once when the thread is free, and goes on from there.",
+                "A sensible guess: messages in a queue would arrive like that. But a timer has no queue. rclpy calls "
+                "its callback once when the thread is free; the missed calls are gone.",
             ),
             Choice(
                 "3 s, and the missed beats never come.",
@@ -36,7 +36,7 @@ PREDICTIONS = (
             Choice(
                 "About 1 s: the executor shares the time between the callbacks.",
                 "A sensible guess: operating systems share time like that. But an executor never interrupts a "
-                "callback. Either the group lets beat in beside look_around, or beat waits to the end.",
+                "callback. Either the group lets beat run beside look_around, or beat waits until look_around ends.",
             ),
             Choice(
                 "3 s again.",
@@ -52,8 +52,8 @@ PREDICTIONS = (
         (
             Choice(
                 "0.1 s: an async callback doesn't block.",
-                "A sensible guess: that is what the word suggests. But a coroutine gives its thread back only where "
-                "it awaits. time.sleep awaits nothing and keeps the thread.",
+                "A sensible guess: that is what the word suggests. But a coroutine gives its thread back only at an "
+                "`await`. time.sleep is not awaited, so it keeps the thread.",
             ),
             Choice(
                 "3 s.",
@@ -63,8 +63,8 @@ PREDICTIONS = (
             ),
             Choice(
                 "There are no heartbeats at all: rclpy refuses async callbacks.",
-                "A sensible guess: some libraries do. But rclpy takes coroutines as callbacks. It runs "
-                "them until they await, and this one never does.",
+                "A sensible guess: some libraries do. But rclpy accepts coroutines as callbacks. It runs "
+                "them until they await, and this one never awaits.",
             ),
         ),
     ),
@@ -73,19 +73,20 @@ PREDICTIONS = (
         "client get?",
         (
             Choice(
-                "The position: another thread takes in the response.",
-                "A sensible guess: there are free threads. But the client is in the node's default group, beside the "
-                "callback that waits. The group doesn't let the response in.",
+                "The position: another thread receives the response.",
+                "A sensible guess: there are free threads. But the client is in the node's default group, like the "
+                "callback that waits. This group runs one callback at a time, so the response can't be handled.",
             ),
             Choice(
                 "No response: it is a deadlock, as on one thread.",
-                "The client is in the same group as the callback that waits for it. Free threads don't open a group.",
+                "The client is in the same group as the callback that waits for the response. Free threads don't help: "
+                "the group still runs one callback at a time.",
                 right=True,
             ),
             Choice(
                 "An exception: rclpy sees the deadlock.",
-                "A sensible guess: it would help a lot. But rclpy can't know that you wait for a response that "
-                "is kept out by your own callback. Nothing is printed.",
+                "A sensible guess: it would help a lot. But rclpy can't know that your own callback keeps the response "
+                "from being handled. Nothing is printed.",
             ),
         ),
     ),
@@ -95,13 +96,13 @@ PREDICTIONS = (
         (
             Choice(
                 "No answer: time.sleep waits for the paused clock.",
-                "A sensible guess: use_sim_time sounds as if it held for everything. But time.sleep is Python's, and "
-                "it has never heard of /clock.",
+                "A sensible guess: use_sim_time sounds as if it applied to everything. But time.sleep is a function of "
+                "Python, which doesn't use /clock.",
             ),
             Choice(
                 "After 3 s the answer “looked left and right”, and the head has not moved.",
-                "time.sleep counts seconds of the system clock. The robot's time stood still, so nothing moved, and "
-                "the node says that it did.",
+                "time.sleep waits for seconds of the system clock. The robot's time stood still, so the head didn't "
+                "move, although the node responds that it looked around.",
                 right=True,
             ),
             Choice(
@@ -115,7 +116,7 @@ PREDICTIONS = (
 QUESTIONS = (
     Question(
         "A node has a timer and a slow service, and rclpy.spin(node) runs it. You want the timer to stay punctual. "
-        "What is enough?",
+        "Which change is enough?",
         (
             Choice(
                 "A MultiThreadedExecutor.",
@@ -123,12 +124,13 @@ QUESTIONS = (
             ),
             Choice(
                 "A MultiThreadedExecutor, and a callback group of its own for the timer.",
-                "One thread can sleep while another beats, and no group keeps them apart.",
+                "One thread can sleep in the service while another runs the timer, and the two callbacks share no "
+                "group.",
                 right=True,
             ),
             Choice(
                 "A callback group of its own for the timer.",
-                "The group would let the timer in, but the only thread sleeps in the service.",
+                "The group would allow the timer to run, but the only thread sleeps in the service.",
             ),
         ),
     ),
@@ -138,16 +140,16 @@ QUESTIONS = (
         (
             Choice(
                 "The timer completes the future, because an awaiting callback doesn't count.",
-                "It holds no thread, but it counts as running: its group stays closed until it returns.",
+                "It holds no thread, but it counts as running: its group runs no other callback until it returns.",
             ),
             Choice(
                 "It awaits forever.",
-                "The group is closed while the callback runs, and awaiting is running. The timer never gets in.",
+                "A callback that awaits still counts as running, so its group never runs the timer.",
                 right=True,
             ),
             Choice(
                 "rclpy raises an exception.",
-                "rclpy doesn't look for such circles. Nothing is printed, and the node looks alive.",
+                "rclpy doesn't detect such deadlocks. Nothing is printed, and the node looks alive.",
             ),
         ),
     ),
@@ -156,17 +158,17 @@ QUESTIONS = (
         (
             Choice(
                 "main has to call asyncio.run(rclpy.spin(node)).",
-                "rclpy.spin(node) is an ordinary function, which returns when the node ends. No event loop runs before "
-                "that.",
+                "rclpy.spin(node) is an ordinary function, which returns when the node ends. While it runs, there is "
+                "no event loop.",
             ),
             Choice(
                 "rclpy's executor resumes coroutines by itself, without asyncio's event loop.",
-                "So you await rclpy's futures: those of clients, or one that a timer completes.",
+                "So you await rclpy's futures: the futures of clients, or one that a timer completes.",
                 right=True,
             ),
             Choice(
                 "The callback has to be declared with `async def` for that.",
-                "It is declared so, or `await` would be a syntax error.",
+                "It is already declared with `async def`, or `await` would be a syntax error.",
             ),
         ),
     ),
@@ -185,7 +187,7 @@ QUESTIONS = (
             ),
             Choice(
                 "As fast as it can.",
-                "rate.sleep() does wait; what it waits for never comes.",
+                "rate.sleep() does wait, for a timer that never fires.",
             ),
         ),
     ),
@@ -203,7 +205,8 @@ QUESTIONS = (
             ),
             Choice(
                 "get_clock().sleep_for() in the callback of a single-threaded node.",
-                "It never returns: the /clock message that would end it waits for the thread that sleeps.",
+                "It never returns: the only thread sleeps, so the node can't receive the /clock message that would "
+                "end the sleep.",
             ),
         ),
     ),
@@ -212,13 +215,13 @@ QUESTIONS = (
         (
             Choice(
                 "No: whatever takes longer than a second has to be an action.",
-                "No rule names a number. ROS's guide does keep services for what is quick, so you need a reason: does "
-                "anybody want to watch it, or to cancel it?",
+                "There is no such limit. ROS's guide does recommend services for quick tasks, so decide by the need: "
+                "does anybody want to watch the progress, or to cancel?",
             ),
             Choice(
                 "Yes: nobody wants to watch it or cancel it, and its answer is all that counts.",
-                "A client can wait for 3 s with a time limit of, say, 5 s. The node has to stay alive meanwhile: that "
-                "is your task.",
+                "A client can wait for 3 s with a time limit of, say, 5 s. Your task is to let the node run its other "
+                "callbacks meanwhile.",
                 right=True,
             ),
             Choice(

@@ -8,16 +8,18 @@ QUESTIONS = (
         (
             Choice(
                 "Because three loops cannot be cancelled.",
-                "They can, if each of them asks is_cancel_requested. They still would not look at the goal again.",
+                "They can, if each of them checks is_cancel_requested. But they still don't measure again where the "
+                "goal is.",
             ),
             Choice(
                 "Because it can then go back to an earlier phase, when a push makes that necessary.",
-                "Three loops know only the way forward: they end at a place that was right before the push.",
+                "Three loops can't go back to an earlier phase. After a push they end at the wrong place.",
                 right=True,
             ),
             Choice(
                 "Because odom drifts, and one loop corrects that.",
-                "No loop sees the drift of odom, because it measures in odom. It sees that the robot has left its way.",
+                "No loop can detect the drift of odom, because it measures with odom. It can only detect that the "
+                "robot has left its path.",
             ),
         ),
     ),
@@ -26,7 +28,7 @@ QUESTIONS = (
         (
             Choice(
                 "Nothing: the robot does not move from its place.",
-                "Its place is the same afterwards, but the pelvis has moved to each side with every step.",
+                "Its place is the same afterwards, but the pelvis has moved to one side with every step.",
             ),
             Choice(
                 "Decimetres: lengths are never negative, so the sway adds up.",
@@ -35,7 +37,7 @@ QUESTIONS = (
             ),
             Choice(
                 "A few millimetres: the movement to the left cancels the one to the right.",
-                "That is true of the positions. The sum has lengths in it, and lengths do not cancel.",
+                "That is true of the positions. But you sum up lengths, and lengths don't cancel each other.",
             ),
         ),
     ),
@@ -43,18 +45,18 @@ QUESTIONS = (
         "What belongs in estimated_time_remaining, when a turn and a walk lie ahead?",
         (
             Choice(
-                "The sum of the parts, each at the speed that the robot really reaches: turns in rad/s, way in m/s.",
-                "A turn takes seconds and no metre, so it needs a speed of its own. Measure both, once or on the way.",
+                "The sum of both parts, each at the speed that the robot really reaches: rad/s to turn, m/s to walk.",
+                "A turn takes seconds but no metres, so it needs a speed of its own. Measure both speeds.",
                 right=True,
             ),
             Choice(
                 "The distance, divided by the speed that you command.",
-                "The robot clamps a command, and it slips. And the turn, which takes seconds, is forgotten.",
+                "The robot clamps a command, and it slips. And this formula leaves out the time for the turn.",
             ),
             Choice(
                 "The distance, divided by the speed of the last two seconds.",
-                "That is right while the robot walks. While it turns, that speed is about 0, and even a bounded one is "
-                "wrong by more than a factor of two.",
+                "That is right while the robot walks. But while it turns, the speed is about 0, so the estimate is "
+                "far too long. Even with a lower limit for the speed it is wrong by more than a factor of two.",
             ),
         ),
     ),
@@ -63,16 +65,16 @@ QUESTIONS = (
         (
             Choice(
                 "Reject it: there is nothing to do.",
-                "A client that asks for a place wants the robot to be there, and it is. A rejection gives no reason: "
-                "the client would believe that it cannot be reached.",
+                "The client wants the robot to be there, and it is. A rejection gives no reason, so "
+                "the client would believe that the pose can't be reached.",
             ),
             Choice(
-                "Divide, and let the NaN go out as progress.",
-                "Python raises a ZeroDivisionError here, which aborts the goal. And NaN is no progress bar.",
+                "Divide by the distance 0, and publish NaN as progress.",
+                "Python raises a ZeroDivisionError here, which aborts the goal. And NaN is no useful progress.",
             ),
             Choice(
                 "Succeed at once with a progress of 100 %.",
-                "What has to be done is done. Decide what nothing is before you divide by it.",
+                "The robot is already at the goal. Handle a distance of 0 before you divide by it.",
                 right=True,
             ),
         ),
@@ -86,26 +88,28 @@ QUESTIONS = (
             ),
             Choice(
                 "When the status is CANCELED.",
-                "A sound server says that only when the robot stands. But is this server sound?",
+                "A correct server ends the goal only when the robot stands. But you can't know whether this server is "
+                "correct.",
             ),
             Choice(
-                "When the status is CANCELED and robot_state says STANDING.",
-                "The status is the server's word, and the mode is the robot's. Wait for both, each with a limit.",
+                "When the status is CANCELED and the mode in robot_state is STANDING.",
+                "The status comes from the server, and the mode from the robot itself. Wait for both, each with a "
+                "time limit.",
                 right=True,
             ),
         ),
     ),
     Question(
-        "Your subscription gets a percentage of NaN. Which condition lets the robot walk on?",
+        "Your subscription receives a percentage of NaN. With which line does the robot walk on?",
         (
             Choice(
                 "if not percentage >= 0.20: cancel()",
-                "NaN >= 0.20 is false, so `not` makes it true: the robot stops because a sensor is silent.",
+                "NaN >= 0.20 is false, so `not` makes it true: the robot stops because a sensor has no value.",
             ),
             Choice(
                 "if percentage < 0.20: cancel()",
-                "Every `<` and `>` with NaN is false, so the walk goes on. A good guard warns once, too: this line "
-                "alone tells nobody that nothing was measured.",
+                "Every `<` and `>` with NaN is false, so the walk goes on. A good guard also logs one warning, because "
+                "nothing was measured.",
                 right=True,
             ),
             Choice(
@@ -124,11 +128,12 @@ QUESTIONS = (
             ),
             Choice(
                 "Take the numbers as they are: map and odom begin at the same place.",
-                "Perhaps when the robot is switched on at the map's origin. Then odom drifts, and they part.",
+                "They may begin there, if the robot is switched on at the map's origin. But then odom drifts away from "
+                "map.",
             ),
             Choice(
                 "Change the frame_id to odom and go on.",
-                "That changes the label and not the numbers. Only a transform changes the numbers.",
+                "That changes only the frame's name. To change the numbers you need a transform.",
             ),
         ),
     ),
@@ -136,22 +141,23 @@ QUESTIONS = (
 
 PREDICTIONS = (
     Question(
-        "Somebody turns the robot off its way in the middle of its walk. How does the goal of the three loops end?",
+        "In the middle of the walk somebody turns the robot to the side. How does the goal of the server with three "
+        "loops end?",
         (
             Choice(
                 "SUCCEEDED, at the goal: the server measures with odom.",
-                "A sensible guess: odom does see the turn. But the server asks it only how far the robot has walked, "
-                "and never again where the goal is.",
+                "A sensible guess: odom does measure the turn. But the server uses odom only for the distance walked, "
+                "and never checks again where the goal is.",
             ),
             Choice(
                 "SUCCEEDED, far beside the goal.",
-                "The loop ends after 1.6 m of walking, and succeed() follows whatever loop has ended.",
+                "The loop ends after 1.6 m of walking, in whatever direction, and then the server calls succeed().",
                 right=True,
             ),
             Choice(
                 "ABORTED: the server sees that the robot is not there.",
-                "A sensible guess: it has all it needs to see that. But nobody wrote that comparison, and rclpy "
-                "does not know what a goal means.",
+                "A sensible guess: the server has the data for that. But its code doesn't compare them, and rclpy "
+                "doesn't know what a goal means.",
             ),
         ),
     ),
@@ -160,7 +166,7 @@ PREDICTIONS = (
         (
             Choice(
                 "Between 1.3 and 1.5 m.",
-                "A sensible guess: 3 cm are little beside 1.4 m. But they come with every step, about 30 times, and "
+                "A sensible guess: 3 cm are little compared with 1.4 m. But every step adds them, about 30 times, and "
                 "also while the robot turns.",
             ),
             Choice(
@@ -170,17 +176,18 @@ PREDICTIONS = (
             ),
             Choice(
                 "Less than 1.3 m: odom comes only 20 times a second and cuts the corners.",
-                "A sensible guess: straight pieces are shorter than a curve. But the sway that they follow is longer "
-                "than the way.",
+                "A sensible guess: straight pieces are shorter than a curve. But with the sway the curve is much "
+                "longer than the distance.",
             ),
         ),
     ),
     Question(
-        "The point is 0.6 m to the left of the robot. What does progress_percentage say during the quarter turn?",
+        "The point is 0.6 m to the left of the robot. What is progress_percentage during the quarter turn?",
         (
             Choice(
                 "It rises from 0 to 100 %.",
-                "A sensible guess: that is what it is for. But the formula knows distances only, and there is none.",
+                "A sensible guess: that is its purpose. But the formula uses distances only, and during the turn the "
+                "robot covers none.",
             ),
             Choice(
                 "It is 100 % all the time: the robot is near enough.",
@@ -188,8 +195,8 @@ PREDICTIONS = (
                 "that by less than a millimetre at the start.",
             ),
             Choice(
-                "It says thousands of percent, plus or minus.",
-                "3 cm of sway, divided by less than a millimetre at the start.",
+                "Thousands of percent, positive or negative.",
+                "The formula divides 3 cm of sway by the distance at the start, which is less than a millimetre.",
                 right=True,
             ),
         ),
@@ -199,32 +206,33 @@ PREDICTIONS = (
         (
             Choice(
                 "Accepted, like the first one.",
-                "A sensible guess: both want the same. But rcl offers your cancel callback only goals that can still "
-                "change to CANCELING. This one is there already.",
+                "A sensible guess: both requests are the same. But rcl calls your cancel callback only for goals that "
+                "can still change to CANCELING. This goal is already in that state.",
             ),
             Choice(
                 "Not accepted, return_code 3: the goal has terminated.",
-                "It has not terminated yet, but rcl has no other code for a goal that cannot be cancelled any more.",
+                "The goal has not terminated yet. But rcl has no other code for a goal that can't be cancelled any "
+                "more.",
                 right=True,
             ),
             Choice(
                 "None: the server is busy with the first one.",
-                "A sensible guess: a server on one thread would be. But this one has eight, and answers at once.",
+                "A sensible guess: a server on one thread would be busy. But this one has eight, and responds at once.",
             ),
         ),
     ),
     Question(
-        "0.2 and 0.7 arrive in float32 fields. Which of the two is below the Python number 0.2 or 0.7?",
+        "0.2 and 0.7 arrive in float32 fields. Which of them is now below the Python number that was sent?",
         (
             Choice(
                 "Neither: they are equal.",
-                "A sensible guess: it is true of a message that you only create. But on its way to you the Python "
+                "A sensible guess: they are equal in a message that you only create. But when it is sent, the Python "
                 "number becomes a float32, with half of the digits.",
             ),
             Choice(
                 "Both: float32 cuts digits off.",
-                "A sensible guess: digits do get lost. But the number is rounded to the nearest float32, which may lie "
-                "above.",
+                "A sensible guess: digits do get lost. But the number is rounded to the nearest float32, which may be "
+                "larger.",
             ),
             Choice(
                 "0.7 is below, 0.2 is not.",

@@ -7,17 +7,19 @@ QUESTIONS = (
         "What may an on-set callback do?",
         (
             Choice(
-                "Store the new values, and then say whether they are good.",
-                "A set that it refuses has then changed the node all the same: the textbook's robot walked backwards.",
+                "Store the new values, and then accept or refuse them.",
+                "Then even a refused set changes the node: that's why the robot of the textbook's node walked "
+                "backwards.",
             ),
             Choice(
-                "Look at its argument and say yes, or no with a reason.",
-                "And nothing else: another callback may still say no, and of an atomic set everything is dropped then.",
+                "Check its argument, and accept it, or refuse it with a reason.",
+                "It may do nothing else, because another callback may still refuse. In an atomic set, one refusal "
+                "drops all values.",
                 right=True,
             ),
             Choice(
                 "Read the new values with get_parameter() and check them.",
-                "get_parameter() still has the old values there. The new ones are the callback's argument.",
+                "Inside the callback get_parameter() still returns the old values. The new ones are its argument.",
             ),
         ),
     ),
@@ -30,50 +32,53 @@ QUESTIONS = (
             ),
             Choice(
                 "The set is refused with a reason, and the command's exit status is 0.",
-                "The command has asked and printed the answer. A script that looks at the status believes it worked.",
+                "The command sent its request and printed the answer, so it exits with 0. A script that checks only "
+                "the exit status believes that the set was accepted.",
                 right=True,
             ),
             Choice(
                 "The node ends with an exception about the type.",
-                "That happens to a value from the start, in declare_parameter(). At run time it is a refusal.",
+                "That happens with a value from the command line, in declare_parameter(). At run time the set is "
+                "refused.",
             ),
         ),
     ),
     Question(
-        "Two parameters have to fit together. In which way do you change both?",
+        "Two parameters have to fit together. How do you change both?",
         (
             Choice(
                 "With two calls of ros2 param set, one right after the other.",
-                "Between the two there is a pair that nobody wanted, and perhaps the first is accepted and the second "
-                "refused.",
+                "Between the two calls the pair of values is one that you don't want. And the second set may be "
+                "refused after the first was accepted.",
             ),
             Choice(
                 "With one request to set_parameters that has both.",
-                "It is one message, but the node sets them one by one, each with a result of its own.",
+                "It is one request, but the node sets the parameters one by one, each with a result of its own.",
             ),
             Choice(
                 "With one request to set_parameters_atomically.",
-                "The on-set callback sees both together, and both are set or none is.",
+                "The on-set callback gets both values together, and either both are set or none.",
                 right=True,
             ),
         ),
     ),
     Question(
         "A node is started with -p speed:=0.1, declares speed, and registers its on-set callback afterwards. "
-        "Which values does the callback see?",
+        "Which values does the callback get?",
         (
             Choice(
-                "0.1, because rclpy asks every callback about values from the start.",
-                "rclpy asks when the parameter is declared, and at that time nobody was registered.",
+                "0.1, because rclpy calls every callback with the values from the command line.",
+                "rclpy calls the callbacks when the parameter is declared, and none was registered at that time.",
             ),
             Choice(
                 "Only those that are set later.",
-                "The value from the start counted before there was anybody to ask. Register before you declare.",
+                "The value from the command line was set before the callback was registered. So register before you "
+                "declare.",
                 right=True,
             ),
             Choice(
                 "The default, and then 0.1.",
-                "The default is never set: the value from the start takes its place in the declaration.",
+                "The default is never set: the declaration uses the value from the command line instead.",
             ),
         ),
     ),
@@ -82,15 +87,16 @@ QUESTIONS = (
         (
             Choice(
                 "if value < 0.3: refuse",
-                "NaN < 0.3 is false, so NaN is welcome.",
+                "NaN < 0.3 is false, so NaN is accepted.",
             ),
             Choice(
                 "if value < 0.3 or value > 2.0: refuse",
-                "Both comparisons are false. So are the ones in C++'s ranges.",
+                "Both comparisons with NaN are false, so NaN is accepted.",
             ),
             Choice(
                 "if not 0.3 <= value <= 2.0: refuse",
-                "Ask for what is good and refuse the rest: NaN is never good.",
+                "The comparison with NaN is false, so `not` makes it true: everything outside the range is refused, "
+                "and NaN, too.",
                 right=True,
             ),
         ),
@@ -100,51 +106,54 @@ QUESTIONS = (
         (
             Choice(
                 "The node ends: there is no such parameter.",
-                "rclpy keeps values from the start until somebody declares their names. Nobody declares this one.",
+                "rclpy keeps the values of the file until the node declares parameters with these names. It never "
+                "declares sped.",
             ),
             Choice(
                 "A warning in the node's log.",
-                "rclpy keeps the value for a parameter of that name, and nobody declares one: no reason to warn.",
+                "rclpy keeps the value in case the node declares a parameter of that name later, so it doesn't warn.",
             ),
             Choice(
                 "Nothing. The node starts with the default of speed.",
-                "So look at what the node really has: ros2 param dump.",
+                "So check the node's real values with ros2 param dump.",
                 right=True,
             ),
         ),
     ),
     Question(
-        "How do you give the order to stop the robot at once, whatever else is broken?",
+        "How do you stop the robot at once, whatever else is broken?",
         (
             Choice(
                 "By a parameter named stop, because everybody can set parameters.",
-                "A set may be refused, if only for its type, and the exit status of ros2 param set does not tell.",
+                "A set may be refused, for example because of its type, and even then ros2 param set exits with 0.",
             ),
             Choice(
-                "By hardware; a topic is at most for an ordinary stop, and a parameter for none.",
+                "By hardware. A topic is good enough for an ordinary stop only, and a parameter for no stop at all.",
                 "A wire needs no program and no network. A parameter is a setting, and a set may be refused.",
                 right=True,
             ),
             Choice(
                 "In the on-set callback of speed.",
-                "It decides about values. A side effect there moves the robot even when the set is refused.",
+                "This callback only accepts or refuses values. A side effect in it takes effect even when the set is "
+                "refused.",
             ),
         ),
     ),
     Question(
-        "Somebody asks a robot that stands already to stand up. How does your server tell the client?",
+        "A client sends a stand-up goal for a robot that already stands. How does your server report that?",
         (
             Choice(
                 "It rejects the goal.",
-                "The client learns only `accepted: false`. It cannot tell that from a server without data.",
+                "The client gets only `accepted: false`. It would get the same from a server that has no data yet.",
             ),
             Choice(
                 "It publishes feedback with the phase 'stands already'.",
-                "A client must not need feedback: some of it may get lost. The end of the goal has to say it.",
+                "A client must not depend on feedback, because messages may get lost. The status and the result have "
+                "to report it.",
             ),
             Choice(
                 "It accepts the goal and aborts it with ALREADY_STANDING.",
-                "A result has room for a code and a sentence. A rejection has none.",
+                "A result has fields for a code and a sentence. A rejection has neither.",
                 right=True,
             ),
         ),
@@ -158,17 +167,17 @@ PREDICTIONS = (
         (
             Choice(
                 "It stands as before: 40 is not much less than 51.",
-                "A sensible guess: only the difference pulls it over, and kd still brakes. But the difference has the "
-                "wrong sign, so nothing ever brings it back.",
+                "A sensible guess: the difference is small, and kd still damps the motion. But the difference has the "
+                "wrong sign, so the robot never comes back.",
             ),
             Choice(
                 "It leans a little further than with its own gains, and stays like that.",
-                "A sensible guess: a soft spring does that. But with every degree gravity gains more than the "
-                "controller.",
+                "A sensible guess: a soft spring does that. But with every degree of lean the torque of gravity grows "
+                "more than that of the controller.",
             ),
             Choice(
                 "It leans, further and further, and falls.",
-                "Each degree of lean adds more to gravity than to the controller.",
+                "With each degree of lean the torque of gravity grows more than that of the controller.",
                 right=True,
             ),
         ),
@@ -188,7 +197,7 @@ PREDICTIONS = (
             ),
             Choice(
                 "The node ends with an error, and the robot stops half a second later.",
-                "A sensible guess: that is what a wrong type does at the start. But while it runs, the node refuses.",
+                "A sensible guess: that happens with a wrong type at the start. But a running node refuses the set.",
             ),
         ),
     ),
@@ -197,8 +206,8 @@ PREDICTIONS = (
         (
             Choice(
                 "It stops.",
-                "A sensible guess: 0.0 is a good value. But the callback does not look at 0.0. It looks at what was "
-                "set before.",
+                "A sensible guess: 0.0 is a valid value. But the callback doesn't check 0.0. It checks the value that "
+                "was set before.",
             ),
             Choice(
                 "The set is refused, and it walks on ahead.",
@@ -214,16 +223,16 @@ PREDICTIONS = (
     ),
     Question(
         "0.1 m/s and 0.2 rad/s are a circle of 0.5 m. One request to set_parameters has turn 0.45 and speed 0.2, in "
-        "this order. What comes of it?",
+        "this order. Which circle does the robot walk after that?",
         (
             Choice(
-                "A circle of 0.44 m, as asked for.",
+                "A circle of 0.44 m, as requested.",
                 "A sensible guess: it is one request. But rclpy sets its parameters one by one, and 0.45 rad/s does "
                 "not fit the old speed.",
             ),
             Choice(
                 "The old circle of 0.5 m: one of the two is refused, so none is set.",
-                "A sensible guess: that is what set_parameters_atomically does. But this is the other service.",
+                "A sensible guess: set_parameters_atomically does that. But the request goes to set_parameters.",
             ),
             Choice(
                 "A circle of 1 m, twice as wide.",
@@ -239,7 +248,7 @@ PREDICTIONS = (
         (
             Choice(
                 "0.1 and 0.2: the node has had these values before.",
-                "A sensible guess: they are sound, together. But load sets them one by one, and 0.1 does not fit 0.45.",
+                "A sensible guess: together they are valid. But load sets them one by one, and 0.1 doesn't fit 0.45.",
             ),
             Choice(
                 "0.2 and 0.2.",
@@ -259,27 +268,29 @@ PREDICTIONS = (
         (
             Choice(
                 "As with 276: four small swings, each back at 0 before the next.",
-                "A sensible guess: 60 is enough to come back. But only 9 of the 60 are left for that, so it takes "
-                "seconds.",
+                "A sensible guess: with 60 the robot does come back. But gravity takes 51 of the 60, so only 9 are "
+                "left and it takes seconds.",
             ),
             Choice(
-                "A staircase: each push comes on top of the one before.",
-                "It comes back, but that takes seconds, and the next push comes after one.",
+                "A staircase: each push adds to the lean that the pushes before have left.",
+                "The robot comes back, but that takes seconds, and the next push comes after one second.",
                 right=True,
             ),
             Choice(
                 "It falls at the first push: 60 is far too little.",
-                "A sensible guess: it is a fifth of the robot's own gain. But what counts is the sign of 60 - 51.",
+                "A sensible guess: 60 is a fifth of the robot's own gain. But it is more than the 51 that gravity "
+                "takes, so the robot comes back.",
             ),
         ),
     ),
     Question(
-        "The server commands 0.3 m/s for half a second, as 0.15 m need. How high is the pelvis after SUCCEEDED?",
+        "The robot has to rise by 0.15 m, so the server commands 0.3 m/s for half a second. How high is the pelvis "
+        "after SUCCEEDED?",
         (
             Choice(
                 "0.60 m, as computed.",
-                "A sensible guess: 0.3 m/s times 0.5 s are 0.15 m. But the robot rises at 0.15 m/s at most, and the "
-                "clock does not know.",
+                "A sensible guess: 0.3 m/s times 0.5 s is 0.15 m. But the robot rises at 0.15 m/s at most, and the "
+                "server measures only the time.",
             ),
             Choice(
                 "About half way, 0.53 m.",
@@ -288,7 +299,7 @@ PREDICTIONS = (
             ),
             Choice(
                 "Still 0.45 m: the robot refuses a speed over its limit.",
-                "A sensible guess: some robots do. But this one clamps the command, and says nothing.",
+                "A sensible guess: some robots do. But this one clamps the command without a warning.",
             ),
         ),
     ),

@@ -15,13 +15,13 @@ QUESTIONS = (
             Choice(
                 "A plain number requests reliable, and imu offers only best effort.",
                 "The subscription requests more than the publisher offers, so they don't match. Use "
-                "qos_profile_sensor_data. Your node's log has said it: 'incompatible QoS'.",
+                "qos_profile_sensor_data. Your node's log has a warning: 'incompatible QoS'.",
                 right=True,
             ),
             Choice(
                 "The robot doesn't know that your node subscribes.",
-                "It needn't know. The middleware matches publishers and subscriptions, if their QoS settings are "
-                "compatible.",
+                "It doesn't have to know. The middleware matches a publisher and a subscription if their QoS settings "
+                "are compatible.",
             ),
         ),
     ),
@@ -38,7 +38,7 @@ QUESTIONS = (
             ),
             Choice(
                 "Half a second after the last command the robot finishes its step and stands.",
-                "A program that has crashed can't say so. The watchdog in the robot notices that no command comes.",
+                "A crashed program can't command a stop. The robot's watchdog notices that no commands arrive.",
                 right=True,
             ),
         ),
@@ -47,7 +47,7 @@ QUESTIONS = (
         "A node started in the namespace /robot publishes on '/cmd_vel'. What does the robot do?",
         (
             Choice(
-                "It walks: the names are the same but for the slash.",
+                "It walks: the names are the same except for the slash.",
                 "The slash makes the name absolute. The robot subscribes to /robot/cmd_vel, "
                 "and nobody subscribes to /cmd_vel.",
             ),
@@ -69,18 +69,18 @@ QUESTIONS = (
         (
             Choice(
                 "At once: the publisher keeps its last message for me.",
-                "It keeps it, but hands it only to a subscription that requests transient local. A plain 10 "
-                "requests volatile.",
+                "It does keep its last message, but only a subscription that requests transient local receives it. "
+                "A plain 10 requests volatile.",
             ),
             Choice(
                 "With the next message, up to half a second later.",
-                "A subscription may request less than the publisher offers. You only miss the kept message.",
+                "A subscription may request less than the publisher offers. You miss only the message that was "
+                "published before.",
                 right=True,
             ),
             Choice(
                 "Never: the QoS settings are incompatible.",
-                "They would be the other way round: if you request transient local where the publisher offers "
-                "volatile.",
+                "The opposite case is incompatible: you request transient local, but the publisher offers volatile.",
             ),
         ),
     ),
@@ -90,7 +90,7 @@ QUESTIONS = (
         (
             Choice(
                 "To x 2.3 and on: linear.x is along x.",
-                "It is along the x of base_link. The robot has turned, and its x axis with it.",
+                "linear.x is along the x axis of base_link. That axis has turned with the robot.",
             ),
             Choice(
                 "Along the y of odom.",
@@ -99,7 +99,7 @@ QUESTIONS = (
             ),
             Choice(
                 "It lies on its side and goes nowhere.",
-                "It looks so if you read the four numbers as w, x, y, z. ROS writes x, y, z, w.",
+                "You get that if you read the four numbers as w, x, y, z. ROS's order is x, y, z, w.",
             ),
         ),
     ),
@@ -118,29 +118,29 @@ QUESTIONS = (
             ),
             Choice(
                 "An action.",
-                "Somebody may step in the way of the arm. That a client may want to cancel decides it, "
-                "however long the motion takes.",
+                "Somebody may step in the way of the arm, so a client may want to cancel. That alone requires an "
+                "action, however long the motion takes.",
                 right=True,
             ),
         ),
     ),
     Question(
-        "With ROS from PyPI, ROS_PYTHON_CHECK_FIELDS unset, you publish a Twist with linear.x = 1. The "
-        "robot doesn't "
-        "move. What did your node send?",
+        "You use ROS from PyPI, ROS_PYTHON_CHECK_FIELDS is not set, and you publish a Twist with linear.x = 1. "
+        "The robot doesn't move. What did your node send?",
         (
             Choice(
                 "1.0; the robot ignores speeds above its limit of 0.4 m/s.",
-                "It clamps them: with 1.0 it would walk at 0.4 m/s. But your node didn't send 1.0.",
+                "The robot doesn't ignore them, it clamps them: with 1.0 it would walk at 0.4 m/s. But your node "
+                "didn't send 1.0.",
             ),
             Choice(
                 "Nothing: rclpy drops messages with wrong fields.",
-                "A sensible guess, but without ROS_PYTHON_CHECK_FIELDS=1 nobody checks the fields at all.",
+                "A sensible guess, but without ROS_PYTHON_CHECK_FIELDS=1 rclpy doesn't check the fields at all.",
             ),
             Choice(
-                "Practically 0: the int was taken for a float, bit by bit.",
-                "Python's 1, read so, is 5e-324 or 4e-323. A float field needs a float: 1.0. With "
-                "ROS_PYTHON_CHECK_FIELDS=1 the line itself raises; packages from apt end the process.",
+                "Practically 0: the bits of the int were read as a float.",
+                "The bits of Python's 1, read as a float, are 5e-324 or 4e-323. A float field needs a float: 1.0. "
+                "With ROS_PYTHON_CHECK_FIELDS=1 the assignment raises an exception; ROS from apt ends the process.",
                 right=True,
             ),
         ),
@@ -165,9 +165,9 @@ PREDICTIONS = (
             ),
             Choice(
                 "Only odom.",
-                "A sensible guess: the node prints when odom has come forty times. But it notes every "
-                "topic that it receives, and battery_state and robot_state arrive too. Only imu and "
-                "joint_states stay silent.",
+                "A sensible guess: the node prints when odom has arrived forty times. But it records every "
+                "topic that it receives, and battery_state and robot_state arrive, too. Only from imu and "
+                "joint_states no message arrives.",
             ),
         ),
     ),
@@ -178,41 +178,41 @@ PREDICTIONS = (
             Choice(
                 "Nothing.",
                 "A sensible guess: nobody publishes during the pause. But battery_state "
-                "offers transient local. The publisher keeps its last message and hands it to a late "
-                "subscription that requests it.",
+                "offers transient local. The publisher keeps its last message and sends it to a late "
+                "subscription that requests transient local.",
             ),
             Choice(
                 "One line, from the transient local subscription.",
-                "It requests the kept message, and the publisher hands it over. The plain subscription "
+                "It requests the stored message, and the publisher sends it. The plain subscription "
                 "waits for the next message.",
                 right=True,
             ),
             Choice(
                 "One line from each subscription.",
-                "A sensible guess: the publisher does keep its last message. But it hands it only to a "
+                "A sensible guess: the publisher does keep its last message. But it sends that message only to a "
                 "subscription that requests transient local. The plain one waits for the next message.",
             ),
         ),
     ),
     Question(
-        'You kill walk.py while the robot walks, and nothing has said "stop". What does the robot do?',
+        "You kill walk.py while the robot walks, and nobody commands a stop. What does the robot do?",
         (
             Choice(
                 "It walks on, forever.",
-                "A sensible guess: the last command said 0.3 m/s, and a crashed program can't take it "
+                "A sensible guess: the last command was 0.3 m/s, and a crashed program can't take it "
                 "back. But this robot has a watchdog: it ignores a command older than 0.5 s.",
             ),
             Choice(
                 "It freezes in mid-step and falls.",
-                "A sensible guess: a humanoid that freezes in mid-step falls. But your node only asks "
-                "for a speed, and the robot keeps its own balance. When the commands end, it finishes "
+                "A sensible guess: a humanoid that freezes in mid-step falls. But your node only commands "
+                "a speed, and the robot keeps its own balance. When the commands end, it finishes "
                 "its step and stands.",
             ),
             Choice(
                 "It stops and stands.",
                 "The robot ignores a command older than 0.5 s, so it finishes its step and "
-                "stands. A crashed program can't say that it has crashed: the watchdog notices the "
-                "silence.",
+                "stands. A crashed program can't report that it has crashed, but the watchdog notices that "
+                "no commands arrive.",
                 right=True,
             ),
         ),

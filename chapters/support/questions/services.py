@@ -8,12 +8,12 @@ QUESTIONS = (
         (
             Choice(
                 "Raise an exception, so that the client notices.",
-                "The client gets nothing: the exception comes out of spin() and ends the node. "
-                "No response, and no server anymore.",
+                "The client gets nothing: the exception leaves spin() and ends the node. "
+                "There is no response, and no server any more.",
             ),
             Choice(
                 "Return a response with success false and a sentence that says why.",
-                "Report a failure as a response. The flag is for programs, the sentence for people.",
+                "A failure is reported in the response: the flag for programs, the sentence for people.",
                 right=True,
             ),
             Choice(
@@ -32,7 +32,7 @@ QUESTIONS = (
             ),
             Choice(
                 "The server carried it out, because services are reliable.",
-                "Only the delivery is reliable: between two living nodes, and up to the queue's ten requests. "
+                "Only the delivery is reliable, between two running nodes and for up to ten requests in the queue. "
                 "The server can die before, during or after the work.",
             ),
             Choice(
@@ -47,17 +47,17 @@ QUESTIONS = (
         (
             Choice(
                 "The server is alive and will answer.",
-                "With Fast DDS a killed server looks alive for up to 20 s. A busy or deadlocked one "
+                "With Fast DDS a killed server looks alive for up to 20 s. A busy or deadlocked server "
                 "looks alive as long as it runs.",
             ),
             Choice(
-                "A server of this name and type has announced itself and hasn't signed off.",
+                "A server of this name and type has been discovered and hasn't said that it leaves.",
                 "Discovery knows no more than that. Only the time limit on the call protects you.",
                 right=True,
             ),
             Choice(
                 "The server has no other request to work on.",
-                "No client can see the server's queue.",
+                "A client can't see the server's queue, so wait_for_service() can't know that.",
             ),
         ),
     ),
@@ -66,13 +66,13 @@ QUESTIONS = (
         (
             Choice(
                 "It works, because the other node has its own thread.",
-                "The other node does respond. But only this node's thread can take the response in, "
+                "The other node does respond. But only this node's thread can receive the response, "
                 "and that thread waits in call().",
             ),
             Choice(
-                "A deadlock: the thread that waits for the response is the one that would take it in.",
-                "Answer from memory instead. If you must ask another server, chapter 5 shows how: "
-                "async, await and a second callback group.",
+                "A deadlock: the thread that waits for the response is the only one that could receive it.",
+                "Respond with data that your node already has. If you must call another server, chapter 5 shows "
+                "how: async, await and a second callback group.",
                 right=True,
             ),
             Choice(
@@ -90,12 +90,12 @@ QUESTIONS = (
             ),
             Choice(
                 "available false and percentage NaN",
-                "A flag for programs, and a number that no client can mistake for a measured one.",
+                "Programs read the flag, and no client can take NaN for a measured charge.",
                 right=True,
             ),
             Choice(
                 "No response yet: wait for the first message",
-                "It may never come. Then this client waits, and every client behind it.",
+                "That message may never arrive. Then this client waits forever, and so do all later ones.",
             ),
         ),
     ),
@@ -108,11 +108,11 @@ QUESTIONS = (
             ),
             Choice(
                 "It raises a ValueError.",
-                "Python compares a NaN without an error, and the answer is False.",
+                "Python compares NaN without an error, and the result is False.",
             ),
             Choice(
                 "It goes on as if all were well.",
-                "The comparison is false. Ask math.isnan() first, and decide what to do if you don't know.",
+                "The comparison is false. Call math.isnan() first, and decide what to do when the charge is unknown.",
                 right=True,
             ),
         ),
@@ -156,8 +156,8 @@ PREDICTIONS = (
             ),
             Choice(
                 "No response at all.",
-                "self.odom is None, so the callback raises. The exception comes out of rclpy.spin() "
-                "and ends the node: no response, and no server anymore.",
+                "self.odom is None, so the callback raises an exception. It leaves rclpy.spin() "
+                "and ends the node: there is no response, and no server any more.",
                 right=True,
             ),
         ),
@@ -167,18 +167,18 @@ PREDICTIONS = (
         (
             Choice(
                 "An error: the connection is lost.",
-                "A sensible guess: a web browser tells you so. But nobody tells a ROS client that its "
-                "server has died. It sees what it saw before: no response within its time limit.",
+                "A sensible guess: a web browser shows such an error. But a ROS client isn't notified when its "
+                "server dies. It sees the same as before: no response within its time limit.",
             ),
             Choice(
                 "A response with success false.",
                 "A sensible guess: the test did fail. But only the server could send that response, and "
-                "it's dead. The client sees what it saw before: no response within its time limit.",
+                "it's dead. The client sees the same as before: no response within its time limit.",
             ),
             Choice(
                 "No response within one second, as before.",
-                "The client can't tell a test that ran to its end from one that was cut off. No "
-                "response means: unknown.",
+                "The client can't distinguish a test that ran to its end from one that was interrupted. Without a "
+                "response the outcome is unknown.",
                 right=True,
             ),
         ),
@@ -189,19 +189,19 @@ PREDICTIONS = (
             Choice(
                 "The position.",
                 "A sensible guess: where_am_i runs in a process of its own and responds as always. But "
-                "client.call() blocks the executor's thread, and only that thread would take in the "
+                "client.call() blocks the executor's thread, and only that thread could receive the "
                 "response.",
             ),
             Choice(
                 "No response, because an exception ends report.",
-                "A sensible guess: you saw that with where_am_i.py. But rclpy raises nothing here. "
-                "report still runs, and its thread waits for a response that it would have to take in "
-                "itself.",
+                "A sensible guess: you saw that with where_am_i.py. But rclpy raises no exception here. "
+                "report still runs, and its thread waits for a response that only this thread could "
+                "receive.",
             ),
             Choice(
                 "No response, and report goes on running.",
-                "It's a deadlock: client.call() blocks the executor's thread, and only that thread would "
-                "take in the response. rclpy raises nothing and prints nothing.",
+                "It's a deadlock: client.call() blocks the executor's thread, and only that thread could "
+                "receive the response. rclpy raises no exception and prints nothing.",
                 right=True,
             ),
         ),
@@ -211,18 +211,18 @@ PREDICTIONS = (
         (
             Choice(
                 "Only math.isnan.",
-                "With NaN, <, >= and == are all false, even level == level. So ask math.isnan() "
+                "With NaN, <, >= and == are all false, even level == level. So call math.isnan() "
                 "before you compare.",
                 right=True,
             ),
             Choice(
                 '"at least 0.20" and math.isnan.',
-                "A sensible guess: a number that isn't below 0.20 is at least 0.20. But NaN is no "
-                "number, so >= is false as well as <. Only math.isnan() tells you.",
+                "A sensible guess: a number that isn't below 0.20 is at least 0.20. But NaN is not a "
+                "number, so both >= and < are false. Only math.isnan() is true.",
             ),
             Choice(
                 '"equal to itself" and math.isnan.',
-                "A sensible guess: every number is equal to itself. But NaN is no number, and "
+                "A sensible guess: every number is equal to itself. But NaN is not a number, and "
                 "`level == level` is false.",
             ),
         ),

@@ -8,16 +8,17 @@ QUESTIONS = (
         (
             Choice(
                 "SUCCEEDED: a returned result means success.",
-                "rclpy doesn't look into the result. Only a terminal call decides the status.",
+                "rclpy doesn't read the result. Only a terminal call decides the status.",
             ),
             Choice(
                 "ABORTED, with the filled result.",
-                "rclpy assumes the worst. Its warning is in the server's log, where no client sees it.",
+                "Without a terminal call rclpy aborts the goal. Its warning is in the server's log, where no client "
+                "sees it.",
                 right=True,
             ),
             Choice(
                 "Nothing: the goal stays EXECUTING.",
-                "rclpy ends a goal when its execute callback has returned. Nothing stays open.",
+                "rclpy ends every goal whose execute callback has returned.",
             ),
         ),
     ),
@@ -29,7 +30,7 @@ QUESTIONS = (
                 "A rejected goal never runs, so it has no result.",
             ),
             Choice(
-                "Not from the answer: it has accepted and a time, and nothing else.",
+                "Not from the goal response: it has accepted and a time, and nothing else.",
                 "If the client's user must know the reason, the server accepts the goal and aborts it with a code.",
                 right=True,
             ),
@@ -43,16 +44,16 @@ QUESTIONS = (
         "When may a server for walking call succeed()?",
         (
             Choice(
-                "As soon as odom says that the pelvis is at the goal.",
-                "At that moment the robot is in mid-step, and the pelvis is in its swing. It'll stand elsewhere.",
+                "As soon as the pelvis is at the goal, according to odom.",
+                "At that moment the robot is in mid-step, and the pelvis sways. The robot will stand somewhere else.",
             ),
             Choice(
                 "When it has stopped commanding the robot.",
-                "The last command holds for half a second, and then the robot still has to catch its fall.",
+                "The last command is valid for half a second, and then the robot needs another step to stop.",
             ),
             Choice(
                 "When the robot stands, and a measurement made then is within the tolerance.",
-                "Stop, settle, measure. Then SUCCEEDED is true when the client reads it.",
+                "Stop, settle, measure. Then the robot really is at the goal when the client reads SUCCEEDED.",
                 right=True,
             ),
         ),
@@ -67,22 +68,21 @@ QUESTIONS = (
             ),
             Choice(
                 "You do, with get_result_async() on an accepted goal.",
-                "If you ask at once, the server holds your request when the goal ends, and nothing can expire.",
+                "If you send it at once, the server already has your request when the goal ends, so no result expires.",
                 right=True,
             ),
             Choice(
                 "Nobody: the server sends the result when it is ready.",
-                "A result is the answer to a service call. A server can't answer what nobody asked.",
+                "A result is the response to a service call. Without a request the server can't send it.",
             ),
         ),
     ),
     Question(
-        "A feedback message says distance_remaining: 0.00, and no more feedback comes. Has the robot arrived?",
+        "A feedback message has distance_remaining: 0.00, and no more feedback arrives. Has the robot arrived?",
         (
             Choice(
                 "Yes: nothing is left to walk.",
-                "That was the distance in mid-step. The server may find the robot out of tolerance when it stands, "
-                "or the robot may fall.",
+                "That was the distance in mid-step. The robot may still fall, or stand outside the tolerance.",
             ),
             Choice(
                 "Yes, because feedback ends with the goal.",
@@ -100,18 +100,18 @@ QUESTIONS = (
         "happened?",
         (
             Choice(
-                "The server doesn't know the goal, or no longer: its result may have expired.",
-                "A server keeps a result for result_timeout. A server that was restarted knows none of the old goals "
+                "The server doesn't know the goal: its result may have expired.",
+                "A server keeps a result for result_timeout. A server that was restarted doesn't know the old goals, "
                 "either.",
                 right=True,
             ),
             Choice(
                 "The goal is still under way.",
-                "Then the server wouldn't have answered yet: it answers when the goal has ended.",
+                "Then the response wouldn't have arrived yet: the server sends it when the goal has ended.",
             ),
             Choice(
                 "The robot walked 0 m.",
-                "Zeros are what an empty message holds. The status says that nobody filled it.",
+                "Zeros are the values of an empty message. The status UNKNOWN means that no result was filled.",
             ),
         ),
     ),
@@ -124,12 +124,12 @@ QUESTIONS = (
             ),
             Choice(
                 "It should read error_code first: 0 means success.",
-                "A result that nobody filled has error_code 0, too: that of a goal whose server raised an exception, "
-                "for example.",
+                "An empty result has error_code 0, too. You get one if the execute callback raised an exception, for "
+                "example.",
             ),
             Choice(
                 "It should read the status first.",
-                "An aborted walk has steps, too. The status says how to read the result.",
+                "An aborted walk has steps, too. Only the status says whether the robot has arrived.",
                 right=True,
             ),
         ),
@@ -143,40 +143,40 @@ PREDICTIONS = (
         (
             Choice(
                 "SUCCEEDED.",
-                "A sensible guess: the work is done, and the result says so. But rclpy doesn't look into the result. "
+                "A sensible guess: the work is done, and the result says so. But rclpy doesn't read the result. "
                 "Only a terminal call decides the status, and there was none.",
             ),
             Choice(
                 "ABORTED.",
-                "rclpy found no terminal call when execute had returned, and assumed the worst.",
+                "rclpy aborts a goal whose execute callback has returned without a terminal call.",
                 right=True,
             ),
             Choice(
                 "None: the goal stays EXECUTING.",
-                "A sensible guess: nobody ended the goal. But rclpy looks at it when execute has returned. A goal "
-                "that is still active then is aborted.",
+                "A sensible guess: the callback didn't end the goal. But when execute has returned, rclpy aborts a "
+                "goal that is still active.",
             ),
         ),
     ),
     Question(
-        "The server calls succeed() as soon as the pelvis is 1.0 m ahead. Where does the robot stand in the end, "
+        "The server calls succeed() as soon as the pelvis is 1.0 m ahead. Where does the robot finally stand, "
         "compared with final_pose in the result?",
         (
             Choice(
                 "At the same place, within 2 cm.",
-                "A sensible guess: no command follows. But the robot was in mid-step. The last command holds for half "
-                "a second, and after that the robot has to catch its fall.",
+                "A sensible guess: no command follows. But the robot was in mid-step. The last command is valid for "
+                "half a second, and after that the robot needs another step to stop.",
             ),
             Choice(
                 "Several centimetres further.",
-                "The last command holds for half a second, and then the robot puts its foot at the capture point, "
+                "The last command is valid for half a second. Then the robot puts its foot at the capture point, "
                 "ahead of the pelvis.",
                 right=True,
             ),
             Choice(
                 "Several centimetres short of it.",
-                "A sensible guess: the pelvis sways, and a swing can also go back. But it moves forward at 0.3 m/s, "
-                "and nobody has told it to stop.",
+                "A sensible guess: the pelvis sways, also backwards. But it moves forward at 0.3 m/s, "
+                "and no command to stop was sent.",
             ),
         ),
     ),
@@ -185,18 +185,18 @@ PREDICTIONS = (
         (
             Choice(
                 "It prints 0.00 m each time.",
-                "A sensible guess: a field that nobody filled is 0. But this object has no such field at all. It has "
+                "A sensible guess: a field that isn't set is 0. But this object has no such field. Its fields are "
                 "goal_id and feedback.",
             ),
             Choice(
                 "An AttributeError ends the client, and the robot stops.",
-                "A sensible guess: the error does leave the spin, and ends the client. But the server doesn't notice "
-                "that its client is gone.",
+                "A sensible guess: the exception does leave spin(), and it ends the client. But the server doesn't "
+                "notice that its client has ended.",
             ),
             Choice(
                 "An AttributeError ends the client, and the robot walks on.",
-                "The error leaves the callback and the spin. The goal lives at the server, which doesn't notice that "
-                "its client is gone.",
+                "The exception leaves the callback and spin(). But the server executes the goal, and it doesn't "
+                "notice that its client has ended.",
                 right=True,
             ),
         ),
@@ -207,12 +207,12 @@ PREDICTIONS = (
         (
             Choice(
                 "About thirty: as many as fit into 6 s.",
-                "A sensible guess: reliable sounds as if all of them wait for the callback. But each end keeps only "
-                "the last ten. Reliable means that those are sent again if the network loses them.",
+                "A sensible guess: reliable sounds as if all messages wait for the callback. But publisher and "
+                "subscription keep only the last ten. Reliable means that these are sent again if they get lost.",
             ),
             Choice(
                 "Between ten and twenty.",
-                "The queues keep the last ten messages, and the callback takes one or a few more in the meantime.",
+                "The queues keep the last ten messages, and the callback handles a few more while they arrive.",
                 right=True,
             ),
             Choice(
@@ -227,18 +227,18 @@ PREDICTIONS = (
         (
             Choice(
                 "Status 4, and the steps: a result is kept until somebody fetches it.",
-                "A sensible guess: a parcel shop works like that, for a while. But the server threw the result away "
-                "after two seconds, whether or not anybody had read it.",
+                "A sensible guess: a parcel shop works like that. But the server discarded the result "
+                "after two seconds, although no client had read it.",
             ),
             Choice(
-                "No answer: the request waits in vain.",
-                "A sensible guess: the server doesn't know the goal any more. But it says so, with a status of its "
-                "own.",
+                "No answer: the request waits forever.",
+                "A sensible guess: the server doesn't know the goal any more. But it does respond, with the status "
+                "UNKNOWN.",
             ),
             Choice(
                 "Status 0, and 0 steps.",
-                "The server doesn't know this goal any more. It answers UNKNOWN, with an empty result, and nothing "
-                "raises.",
+                "The server doesn't know this goal any more. It responds with status UNKNOWN and an empty result, and "
+                "no exception is raised.",
                 right=True,
             ),
         ),

@@ -8,11 +8,11 @@ QUESTIONS = (
         (
             Choice(
                 "One of my own, SwitchLight.srv, because the name says what it does.",
-                "The service's name says that. Every client would have to build your package for one bool.",
+                "The service's name already says that. And every client would have to build your package for one bool.",
             ),
             Choice(
                 "std_srvs/srv/SetBool, on a service called switch_light.",
-                "One bool in, success and a sentence out. SetBool is made for that, and every tool knows it.",
+                "SetBool has one bool in the request, and success and a message in the response. Every tool has it.",
                 right=True,
             ),
             Choice(
@@ -22,7 +22,7 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "Which field tells a stranger where the hand is to go?",
+        "Which field says without doubt where the hand should go?",
         (
             Choice(
                 "float64[2] position",
@@ -31,7 +31,7 @@ QUESTIONS = (
             ),
             Choice(
                 "geometry_msgs/Point position",
-                "Now it is metres by REP-103. From where is still not said.",
+                "The unit is metres now, by REP-103. But the origin is still unknown.",
             ),
             Choice(
                 "geometry_msgs/PointStamped target  # m",
@@ -45,19 +45,19 @@ QUESTIONS = (
         (
             Choice(
                 "A code with named constants, and a sentence for people.",
-                "The status says whether it ended well. The code says why not, "
-                "and a program can tell a fall from a time limit.",
+                "The status says whether the goal succeeded. The code says why not, "
+                "and a program can distinguish a fall from a timeout.",
                 right=True,
             ),
             Choice(
-                "Nothing, success is clear.",
-                "It repeats the goal's status and can contradict it: status SUCCEEDED with success false. "
-                "Which one counts?",
+                "Nothing, because success is clear.",
+                "It repeats the goal's status and can contradict it, such as status SUCCEEDED with success false. "
+                "Then the client can't know which one counts.",
             ),
             Choice(
                 "A string with the reason.",
-                "For people it is. A program would have to search it for words, "
-                "and the next version spells them differently.",
+                "For people a string is better. But a program would have to search it for words, "
+                "and the next version may use other words.",
             ),
         ),
     ),
@@ -67,17 +67,17 @@ QUESTIONS = (
         (
             Choice(
                 "ROS refuses to connect the two, because the definitions differ.",
-                "With DDS, ROS compares only the name of the type, and it is the same. "
-                "The hashes differ, but nobody looks at them for you.",
+                "With DDS, ROS compares only the name of the type, which is the same. "
+                "The hashes of the definitions differ, but ROS doesn't compare them.",
             ),
             Choice(
                 "The old node picks up the new definition.",
-                "It read the definition when it imported it. A running process doesn't change.",
+                "The old node read the definition when it imported the type. A running process doesn't read it again.",
             ),
             Choice(
-                "They connect, and bytes are read as fields that they aren't.",
-                "Only bytes travel, in the order of the file. "
-                "After a change every program that uses the type is started again.",
+                "They connect, and the receiver reads the bytes of one field as another field.",
+                "Only the bytes are sent, in the order of the definition. "
+                "After a change, restart every program that uses the type.",
                 right=True,
             ),
         ),
@@ -87,7 +87,7 @@ QUESTIONS = (
         (
             Choice(
                 "An error code, NO_IK_SOLUTION, and a sentence with the distance and the reach.",
-                "Out of reach is an answer like any other: the interface has a code for it.",
+                "A target out of reach is an expected outcome: the interface has a code for it.",
                 right=True,
             ),
             Choice(
@@ -96,8 +96,8 @@ QUESTIONS = (
             ),
             Choice(
                 "The angles for the nearest point that can be reached.",
-                "That is an answer to another question. "
-                "The client believes that the hand is where it asked for, and closes the fingers on air.",
+                "These angles are for another target. "
+                "The client believes that the hand is at its target, and closes the fingers on air.",
             ),
         ),
     ),
@@ -134,36 +134,36 @@ PREDICTIONS = (
             Choice(
                 "It raises an exception.",
                 "The cosine is 1.38, and no angle has that cosine. In a service callback the exception "
-                "ends the node, so look before you call acos.",
+                "ends the node, so check the cosine before you call acos.",
                 right=True,
             ),
             Choice(
                 "It returns 0: the arm is stretched towards the target.",
-                "A sensible guess: the stretched arm comes closest. But math.acos doesn't clamp, it "
-                "raises. If you clamped the cosine yourself, the caller would read success and close the "
-                "fingers on air.",
+                "A sensible guess: the stretched arm comes closest. But math.acos doesn't clamp its argument, it "
+                "raises an exception. If you clamped the cosine yourself, the caller would read success and close "
+                "the fingers on air.",
             ),
         ),
     ),
     Question(
         "The client sends one request object three times, with x = 0.1, 0.3 and 0.6. What do the three "
-        "lines say?",
+        "printed lines say?",
         (
             Choice(
                 "x is 0.1, 0.3, 0.6; the distance is 0.1, 0.3, 0.6.",
                 "A sensible guess: rclpy turns a request into bytes the moment you send it, so the "
-                "answers are right. But the client's three notes are the same object, and it holds the "
-                "last question.",
+                "answers are right. But the client has stored the same object three times, and it holds the "
+                "last request.",
             ),
             Choice(
                 "x is 0.6 each time; the distance is 0.6 each time.",
-                "A sensible guess: the three notes are one object, and it holds 0.6 at the end. But "
+                "A sensible guess: the client has stored one object three times, and it holds 0.6 at the end. But "
                 "rclpy turned it into bytes the moment you sent it, so the server got 0.1, 0.3 and 0.6.",
             ),
             Choice(
                 "x is 0.6 each time; the distance is 0.1, 0.3, 0.6.",
-                "The answers are right: rclpy turns a request into bytes the moment you send it. The "
-                "notes are wrong: they are one object, and it holds the last question.",
+                "The distances are right: rclpy turns a request into bytes the moment you send it. The "
+                "values of x are wrong: the client has stored one object three times, and it holds the last request.",
                 right=True,
             ),
         ),
@@ -173,18 +173,18 @@ PREDICTIONS = (
         (
             Choice(
                 "It stops when the client gives up.",
-                "A sensible guess: nobody waits for the walk any more. But a service has no message that "
-                "says so, and the server walks on.",
+                "A sensible guess: nobody waits for the walk any more. But a service has no message to "
+                "cancel a request, so the robot walks on.",
             ),
             Choice(
                 "It stops half a second later.",
-                "A sensible guess: the robot's watchdog stops it when the commands end. But the client "
-                "doesn't send them. The server does, ten times a second, until it arrives.",
+                "A sensible guess: the robot's watchdog stops it when the commands end. But the server sends the "
+                "commands, not the client: ten times a second, until the robot arrives.",
             ),
             Choice(
                 "It walks on to the goal.",
-                "A service has no message that stops it. The server walks to the end, and nobody reads "
-                "its answer.",
+                "A service has no message to cancel a request. The robot walks to the end, and nobody reads "
+                "the answer.",
                 right=True,
             ),
         ),
@@ -195,13 +195,13 @@ PREDICTIONS = (
         (
             Choice(
                 'About 0.15, and "walk home".',
-                "A sensible guess: the new definition says 0 to 1, and the guard was built against it. "
+                "A sensible guess: in the new definition the range is 0 to 1, and the guard uses that definition. "
                 "But level.py still runs with the old version and sends about 15. The guard reads those "
                 "bytes as percentage.",
             ),
             Choice(
                 'About 15, and "go on".',
-                "level.py still runs with the old version and sends about 15. Field names don't travel, "
+                "level.py still runs with the old version and sends about 15. Field names aren't part of a message, "
                 "so the guard reads those bytes as percentage, and nothing fails.",
                 right=True,
             ),

@@ -244,8 +244,8 @@ def test_a_second_request_that_gets_too_little_time(first):
     failed = failure(
         "is_not_confused_by_a_late_answer", BOTH, ENABLED, first, asked(STATUS, 5.0), said(5.5, "no"), ends
     )
-    assert told.observed == "it gave up 0.5 s after the second request"
-    assert "up to 2 s" in told.help
+    assert failed.observed == "it gave up 0.5 s after the second request"
+    assert "up to 2 s" in failed.help
 
 
 def test_a_refusal_that_is_asked_again():

@@ -26,7 +26,7 @@ class Stage:
         stamp = 5e8 + 1000.0 + at
         message.header.stamp.sec = int(stamp)
         message.header.stamp.nanosec = int((stamp - int(stamp)) * 1e9)
-        self.recording.keep(topic, message)
+        self.recording.add_message(topic, message)
 
     def walk(
         self,

@@ -49,7 +49,7 @@ def test_a_design_with_all_six_facts_is_not_graded(
     lab.check_design(written(tmp_path, WHOLE))
     printed = capsys.readouterr().out
     assert "2 nodes, 1 link\n" in printed
-    assert "A person decides whether they are right." in printed
+    assert "Whether they are right is not checked here" in printed
     assert kept == [("arm", 6, 6)]
 
 

@@ -67,9 +67,9 @@ def walk_past(stage: Stage, *, at: float) -> None:
         stage.walk(t, speed=0.5 if t < 2.0 else 0.0, height=0.65, x=1.0, y=2.0 + moved, yaw=np.pi / 2)
         joints = JointState(name=[*ACTUATED_JOINTS], position=[0.0] * len(ACTUATED_JOINTS))
         stage.publish("joint_states", joints, t)
-    stage.recording.note(GoalSent(t=1000.0, goal="go 1", action="go", request=goal))
-    stage.recording.note(GoalAnswered(t=1000.02, goal="go 1", accepted=True))
-    stage.recording.note(ResultReceived(t=1000.0 + at, goal="go 1", status=4, result=WalkTo.Result()))
+    stage.recording.add_event(GoalSent(t=1000.0, goal="go 1", action="go", request=goal))
+    stage.recording.add_event(GoalAnswered(t=1000.02, goal="go 1", accepted=True))
+    stage.recording.add_event(ResultReceived(t=1000.0 + at, goal="go 1", status=4, result=WalkTo.Result()))
     stage.be(RobotState.STANDING, at=2.2)
     stage.end(3.0)
 
@@ -113,16 +113,14 @@ def travel(stage: Stage) -> HTML:
     for twentieth in range(42):
         t = twentieth / 20
         stage.walk(t, x=0.3 * t, yaw=0.5 if t > 1.0 else 0.0)
-    stage.recording.note(GoalSent(t=1000.0, goal="go 1", action="go", request=goal))
-    stage.recording.note(GoalAnswered(t=1000.02, goal="go 1", accepted=True))
+    stage.recording.add_event(GoalSent(t=1000.0, goal="go 1", action="go", request=goal))
+    stage.recording.add_event(GoalAnswered(t=1000.02, goal="go 1", accepted=True))
     for at, phase in ((0.1, "walking"), (0.5, "walking"), (1.1, "turning"), (1.5, "walking")):
-        feedback = FeedbackReceived(
-            t=1000.0 + at, goal="go 1", feedback=NavigateToPose.Feedback(status=phase)
-        )
-        stage.recording.note(feedback)
+        told = FeedbackReceived(t=1000.0 + at, goal="go 1", feedback=NavigateToPose.Feedback(status=phase))
+        stage.recording.add_event(told)
     stage.now = 1000.0 + FLASHING - 0.2
     stage.recording.mark("push")
-    stage.recording.note(ResultReceived(t=1001.9, goal="go 1", status=4, result=NavigateToPose.Result()))
+    stage.recording.add_event(ResultReceived(t=1001.9, goal="go 1", status=4, result=NavigateToPose.Result()))
     stage.end(2.0)
     return lab.film_from_above(stage.recording, reach=0.6, title="A trip")
 
@@ -145,5 +143,5 @@ def test_the_phase_has_its_colour_and_the_push_flashes(stage: Stage) -> None:
 
 def test_feedback_without_a_phase_is_refused(stage: Stage) -> None:
     walk_past(stage, at=1.5)
-    with pytest.raises(lab.LabError, match="no feedback with a `status`"):
+    with pytest.raises(lab.LabError, match="its feedback has no `status`"):
         lab.film_from_above(stage.recording)

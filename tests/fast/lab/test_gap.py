@@ -10,7 +10,7 @@ import lab
 from lab.learning import gap as gap_module
 from lab.learning.gap import Gap, expect, find_gap, write_and_check
 from lab.learning.gap_cells import fill, gaps_of, solution
-from lab.learning.progress_file import kept
+from lab.learning.progress_file import read_entries
 
 PROGRAM = """def double(x):
     # YOUR CODE HERE: return twice x
@@ -56,7 +56,7 @@ def test_an_empty_gap_is_saved_and_says_where_to_write() -> None:
     ):
         write_and_check("double.py", PROGRAM)
     assert Path("double.py").read_text() == PROGRAM
-    assert kept("gaps") == {}
+    assert read_entries("gaps") == {}
 
 
 def test_for_wrong_lines_the_observation_and_the_next_step_are_printed(
@@ -67,7 +67,7 @@ def test_for_wrong_lines_the_observation_and_the_next_step_are_printed(
     assert str(raised.value) == (
         "double.py: not yet.\n  seen:     double(4) is 4\n  expected: 8\n  next:     return twice x"
     )
-    assert kept("gaps") == {}
+    assert read_entries("gaps") == {}
 
 
 def test_lines_that_are_not_python_are_quoted() -> None:
@@ -78,12 +78,12 @@ def test_lines_that_are_not_python_are_quoted() -> None:
 def test_correct_lines_are_confirmed_and_saved(capsys: pytest.CaptureFixture[str]) -> None:
     write_and_check(" double.py ", fill(PROGRAM, "return 2 * x\n"))
     assert capsys.readouterr().out.splitlines()[-1] == "✓ double.py: double(4) is 8"
-    assert list(kept("gaps")) == ["double.py"]
+    assert list(read_entries("gaps")) == ["double.py"]
 
 
 def test_a_file_without_a_gap_is_reported() -> None:
     with pytest.raises(
-        lab.LabError, match=r"no chapter has a gap in a file of this name; there are double\.py"
+        lab.LabError, match=r"no chapter has a gap in a file of this name; the files with gaps are double\.py"
     ):
         find_gap("another.py")
 

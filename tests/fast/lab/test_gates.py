@@ -32,7 +32,9 @@ AWAIT = """
 
 
 def node(log: str, ended: float = 105.0) -> Any:
-    return SimpleNamespace(log=lambda: log, file=Path("scout.py"), life=lambda: SimpleNamespace(ended=ended))
+    return SimpleNamespace(
+        log=lambda: log, file=Path("scout.py"), history=lambda: SimpleNamespace(ended=ended)
+    )
 
 
 def said(log: str, groups: dict[str, str], threads: int, moment: float | None = None) -> str:
@@ -78,7 +80,7 @@ def test_a_callback_without_an_end_keeps_both_until_the_end(monkeypatch: pytest.
 
 
 def test_a_callback_without_a_known_group_is_named() -> None:
-    with pytest.raises(lab.LabError, match=r"scout\.py: say the group of look_around"):
+    with pytest.raises(lab.LabError, match=r"scout\.py: `groups` has no group for look_around"):
         lab.draw_gates(node(RUN), {"beat": "default group"}, threads=1)
-    with pytest.raises(lab.LabError, match="no steps"):
+    with pytest.raises(lab.LabError, match="the node has printed no lines about its callbacks"):
         lab.draw_gates(node("nothing"), DEFAULT, threads=1)

@@ -61,10 +61,10 @@ def test_the_buttons_do_the_same_and_are_disabled_after_the_decision() -> None:
 
 def test_other_words_and_further_answers_are_refused() -> None:
     choice = lab.choose_pattern()
-    with pytest.raises(lab.LabError, match="'maybe' is no answer"):
+    with pytest.raises(lab.LabError, match="'maybe' is not accepted"):
         choice.answer("maybe")
     choice.answer("yes")
-    with pytest.raises(lab.LabError, match=r"the pattern is decided: action; begin again with restart\(\)"):
+    with pytest.raises(lab.LabError, match=r"the pattern is already decided: action; call restart\(\)"):
         choice.answer("no")
     choice.restart()
     assert choice.pattern is None

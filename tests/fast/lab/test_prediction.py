@@ -128,7 +128,7 @@ def test_without_a_choice_the_reply_asks_for_one(capsys: pytest.CaptureFixture[s
 def test_an_unknown_letter_names_the_choices_and_changes_nothing() -> None:
     prediction = Prediction(1, EXAMPLE)
     prediction.choose("a")
-    with pytest.raises(lab.LabError, match="'c' is not a choice; they are a, b"):
+    with pytest.raises(lab.LabError, match="'c' is not a choice; the choices are a, b"):
         prediction.choose("c")
     assert prediction.letter == "a"
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import lab
-from lab.learning.progress_file import keep, kept
+from lab.learning.progress_file import read_entries, store_entry
 from lab.running import programs_folder
 
 
@@ -48,7 +48,7 @@ def test_programs_beside_the_notebook_are_kept_named_and_not_used(
     lab.keep_programs_in("programs/02_services")
     assert capsys.readouterr().out == (
         "The programs of this notebook are in programs/02_services\n"
-        "Others are beside the notebook, which doesn't use them: a.py, b.py, c.py, …\n"
+        "These programs beside the notebook are no longer used: a.py, b.py, c.py, …\n"
     )
     with pytest.raises(lab.LabError, match=r"there is no file a\.py in .*02_services; run the cell"):
         lab.run_program("a.py")
@@ -56,8 +56,12 @@ def test_programs_beside_the_notebook_are_kept_named_and_not_used(
 
 
 def test_progress_stays_beside_the_notebooks(notebooks: Path) -> None:
-    keep("predictions", "before", "one")
+    store_entry("predictions", "before", "one")
     lab.keep_programs_in("programs/02_services")
-    keep("predictions", "after", "two")
-    assert kept("predictions", notebooks) == kept("predictions") == {"before": "one", "after": "two"}
+    store_entry("predictions", "after", "two")
+    assert (
+        read_entries("predictions", notebooks)
+        == read_entries("predictions")
+        == {"before": "one", "after": "two"}
+    )
     assert not list((notebooks / "programs").rglob(".progress.json"))

@@ -13,7 +13,7 @@ from lab.learning import progress
 from lab.learning.contents import read_contents
 from lab.learning.gap import read_gaps
 from lab.learning.prediction import predict
-from lab.learning.progress_file import keep
+from lab.learning.progress_file import store_entry
 from ros_runtime.self_checks import FILE, LastCheck, last_checks, store_check
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -39,9 +39,11 @@ def read_chapter(name: str) -> None:
     for number in range(1, len(questions.PREDICTIONS) + 1):
         predict(name, number).choose("a")
     for question in questions.QUESTIONS:
-        keep("questions", question.text, next(choice.text for choice in question.choices if choice.right))
+        store_entry(
+            "questions", question.text, next(choice.text for choice in question.choices if choice.right)
+        )
     for gap in read_gaps(name):
-        keep("gaps", gap.file, "2026-01-01T10:00:00")
+        store_entry("gaps", gap.file, "2026-01-01T10:00:00")
 
 
 def test_the_contents_are_every_chapter_and_every_exercise() -> None:
@@ -63,8 +65,8 @@ def test_predictions_answers_and_gaps_are_counted(checks: dict[str, LastCheck]) 
     lab.quiz("services", 1).answer("a")
     lab.quiz("services", 3).answer("b")
     lab.quiz("services", 3).answer("a")  # the last answer counts
-    keep("gaps", "where_am_i_fixed.py", "2026-01-01T10:00:00")
-    keep("predictions", "a question that is gone", "a choice")
+    store_entry("gaps", "where_am_i_fixed.py", "2026-01-01T10:00:00")
+    store_entry("predictions", "a question that is gone", "a choice")
     parts = row("2").parts
     assert str(parts["Predictions"]).startswith("1/")
     assert re.match(r"2/\d+, \d right", str(parts["Quiz"]))

@@ -37,7 +37,7 @@ def test_a_wrong_choice_is_rejected_with_a_reason() -> None:
 
 
 def test_an_unknown_letter_names_the_choices() -> None:
-    with pytest.raises(lab.LabError, match="'c' is not a choice; they are a, b"):
+    with pytest.raises(lab.LabError, match="'c' is not a choice; the choices are a, b"):
         Quiz("Question 1", EXAMPLE).mark("c")
 
 

@@ -69,11 +69,13 @@ def test_a_plot_has_a_panel_for_each_quantity_and_a_label_for_each_moment(stage:
     stage.be(RobotState.WALKING, at=-0.1)
     for twentieth in range(40):
         stage.walk(twentieth / 20, speed=0.3 if twentieth < 25 else 0.0)
-    stage.recording.note(CancelSent(t=1001.0, cancel="cancel 1", goal="turn_to 1", by="notebook"))
-    stage.recording.note(CancelAnswered(t=1001.01, cancel="cancel 1", return_code=0, canceling=["turn_to 1"]))
-    stage.recording.note(FeedbackReceived(t=1001.1, goal="turn_to 1", feedback=None))
+    stage.recording.add_event(CancelSent(t=1001.0, cancel="cancel 1", goal="turn_to 1", by="notebook"))
+    stage.recording.add_event(
+        CancelAnswered(t=1001.01, cancel="cancel 1", return_code=0, canceling=["turn_to 1"])
+    )
+    stage.recording.add_event(FeedbackReceived(t=1001.1, goal="turn_to 1", feedback=None))
     stage.be(RobotState.STANDING, at=1.25)
-    stage.recording.note(ResultReceived(t=1001.5, goal="turn_to 1", status=5, result=None))
+    stage.recording.add_event(ResultReceived(t=1001.5, goal="turn_to 1", status=5, result=None))
     drawing = read(stage.end(2.0).plot("speed", "height", title="A cancel"))
 
     labels = ["cancel requested", "cancel accepted", "WALKING → STANDING", "result: CANCELED"]
@@ -102,7 +104,9 @@ def test_the_time_between_two_moments_can_be_asked_for(stage: Stage) -> None:
     recording = stage.end(1.0)
     assert recording.time_of("OFF") - recording.time_of("power off") == pytest.approx(0.1)
     assert recording.time_of("WALKING → OFF") == recording.time_of("OFF")
-    with pytest.raises(LabError, match=r'there is: "power off" at 0\.40 s; "WALKING → OFF" at 0\.50 s'):
+    with pytest.raises(
+        LabError, match=r'the recorded events are: "power off" at 0\.40 s; "WALKING → OFF" at 0\.50 s'
+    ):
         recording.time_of("FALLEN")
 
 
@@ -120,7 +124,7 @@ def test_a_curve_to_compare_with_is_named_and_does_not_stretch_the_panel(stage: 
 def test_the_time_between_two_moments_is_coloured_and_measured(stage: Stage) -> None:
     stage.be(RobotState.WALKING, at=-0.1)
     stage.walk(0.5)
-    stage.recording.note(ResultReceived(t=1000.6, goal="turn_to 1", status=5, result=None))
+    stage.recording.add_event(ResultReceived(t=1000.6, goal="turn_to 1", status=5, result=None))
     stage.be(RobotState.STANDING, at=1.35)
     recording = stage.end(2.0)
     drawing = read(recording.plot("speed", between={"keep away": ("result: CANCELED", "STANDING")}))
@@ -140,7 +144,9 @@ def test_an_unknown_quantity_is_refused_with_those_that_there_are(stage: Stage) 
     stage.walk(0.5)
     recording = stage.end(1.0)
     for ask in (recording.values, recording.mean, recording.plot):
-        with pytest.raises(LabError, match=r"nothing called 'sped' .* \"speed\" \(m/s\), .*\"power\" \(W\)"):
+        with pytest.raises(
+            LabError, match=r"there is no quantity 'sped'; .* \"speed\" \(m/s\), .*\"power\" \(W\)"
+        ):
             ask("sped")
 
 
@@ -150,7 +156,7 @@ def test_an_empty_recording_is_reported(stage: Stage) -> None:
     for ask in (lambda: recording.plot("speed"), lambda: recording.mean("power"), recording.film):
         with pytest.raises(LabError, match=r"was recorded: the block lasted 0\.02 s"):
             ask()
-    with pytest.raises(LabError, match="say what to plot"):
+    with pytest.raises(LabError, match="name the quantities to plot"):
         recording.plot()
 
 
@@ -169,7 +175,7 @@ def test_means_are_points_with_the_names_of_their_recordings(stage: Stage) -> No
     for text in ("a walk", "mean speed, m/s", "mean power, W", "Power against speed"):
         assert text in drawing.texts
     assert drawing.alt == "Power against speed. a walk: mean speed, m/s 0.25, mean power, W 100.00."
-    with pytest.raises(LabError, match="nothing to plot"):
+    with pytest.raises(LabError, match="no recording to plot"):
         plot_means({}, "speed", "power")
 
 
@@ -206,8 +212,8 @@ def test_a_band_shows_where_an_estimate_is_near_the_truth() -> None:
     ("curves", "said"),
     [
         ({}, "0 curves"),
-        ({"a": ([], [])}, "a: 0 values for t and 0 for y"),
-        ({"a": ([1], [1, 2])}, "a: 1 values for t and 2 for y"),
+        ({"a": ([], [])}, "a has 0 values for t and 0 for y"),
+        ({"a": ([1], [1, 2])}, "a has 1 values for t and 2 for y"),
     ],
 )
 def test_invalid_curves_are_refused(curves: dict[str, tuple[list[float], list[float]]], said: str) -> None:

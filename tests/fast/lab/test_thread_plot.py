@@ -16,7 +16,7 @@ def node(log: str, ended: float | None = 20.0) -> Any:
     return SimpleNamespace(
         file=Path("scout.py"),
         log=lambda: log,
-        life=lambda: SimpleNamespace(ended=ended),
+        history=lambda: SimpleNamespace(ended=ended),
         is_running=ended is None,
     )
 

@@ -1,4 +1,4 @@
-"""The lives of processes on one time axis."""
+"""The histories of processes on one time axis."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from drawings import read
 from lab.errors import LabError
 from lab.pictures.labels import Mark, rows_of, text_width
 from lab.pictures.timeline import draw_timeline
-from lab.running.processes import Life, Process
+from lab.running.processes import Process, ProcessHistory
 
 
 @dataclass(frozen=True)
 class Lived:
     """Stands for a node or program."""
 
-    of: Life
+    of: ProcessHistory
 
-    def life(self) -> Life:
+    def history(self) -> ProcessHistory:
         return self.of
 
 
 def lived(name: str, began: float, ended: float, end: str, *lines: tuple[float, str]) -> Lived:
-    return Lived(Life(name, began, ended, end, [Mark(*line) for line in lines]))
+    return Lived(ProcessHistory(name, began, ended, end, [Mark(*line) for line in lines]))
 
 
 def test_each_process_has_a_lane_with_its_lines_and_its_end() -> None:
@@ -35,7 +35,7 @@ def test_each_process_has_a_lane_with_its_lines_and_its_end() -> None:
     drawing = read(draw_timeline(server, client, title="A retry"))
     for text in (
         *("A retry", "where_am_i.py", "ask.py", "asked", "killed", "[WARN] try 1: no answer", "at x 0.1 m"),
-        "s since the first of them began (system clock)",
+        "s since the first process began (system clock)",
     ):
         assert drawing.texts.count(text) == 1, text
     assert drawing.alt == (
@@ -62,7 +62,7 @@ def test_a_long_line_is_cut_in_the_drawing_and_whole_in_its_words() -> None:
 
 
 def test_without_a_process_there_is_nothing_to_draw() -> None:
-    with pytest.raises(LabError, match="say which processes"):
+    with pytest.raises(LabError, match="name the processes"):
         draw_timeline()
 
 
@@ -80,16 +80,16 @@ def test_the_lines_of_a_process_have_the_times_at_which_they_came() -> None:
     program = "import sys; print('one', flush=True); sys.stderr.write('\\x1b two\\n')"
     process = Process(["-c", program], own_stderr=True)
     assert process.wait(20.0)
-    life = Life.of("program.py", process, was_stopped=False)
-    assert sorted(line.label for line in life.lines) == ["one", "two"]
-    assert life.ended is not None
-    assert all(life.began < line.time <= life.ended for line in life.lines)
-    assert life.end == "exit status 0"
+    history = ProcessHistory.of("program.py", process, was_stopped=False)
+    assert sorted(line.label for line in history.lines) == ["one", "two"]
+    assert history.ended is not None
+    assert all(history.began < line.time <= history.ended for line in history.lines)
+    assert history.end == "exit status 0"
 
 
 def test_a_log_line_keeps_its_severity_and_its_words() -> None:
     process = Process(["-c", "print('[WARN] [1764.25] [robot.asker]: try 1:  no answer')"])
     assert process.wait(20.0)
-    assert [line.label for line in Life.of("p", process, was_stopped=False).lines] == [
+    assert [line.label for line in ProcessHistory.of("p", process, was_stopped=False).lines] == [
         "[WARN] try 1: no answer"
     ]

@@ -96,7 +96,10 @@ def test_the_solutions_of_the_gaps_are_accepted(chapter: Executed) -> None:
         chapter.text("qos-fix-file")
         == "✓ monitor_fixed.py: messages arrived on battery_state, imu, joint_states, odom, robot_state\n"
     )
-    assert "✓ robot_mode.py: paused, and it knows at once: 'mode 1, motors on" in chapter.text("mode-file")
+    assert (
+        "✓ robot_mode.py: it received the last state although the simulation was paused: 'mode 1, motors on"
+        in chapter.text("mode-file")
+    )
     assert 0.9 < number(chapter.text("metre-file"), r"walked ([\d.]+) m") < 1.5
 
 
@@ -179,10 +182,10 @@ def robot_and_gaps(gaps: GapTrials) -> GapTrials:
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        ("return 10", "On /robot/imu you request reliable, and the publisher offers best effort"),
+        ("return 10", "On /robot/imu you request reliable, but the publisher offers best effort"),
         (
             "if topic == 'imu':\n    return qos_profile_sensor_data\nreturn 10",
-            "nothing arrived on joint_states.",
+            "no message arrived on joint_states.",
         ),
         ("qos_profile_sensor_data", "end each path of qos with `return` and a profile"),
         (
@@ -216,7 +219,7 @@ BEST_EFFORT = (
         ),
         (
             LATCHED + "self.create_subscription(RobotState, '/robot_state', self.on_state, qos)",
-            "it subscribes to /robot_state",
+            "the node subscribes to /robot_state",
         ),
         (
             LATCHED + "self.create_subscription(RobotState, 'robot_state', self.on_state(), qos)",
@@ -224,7 +227,7 @@ BEST_EFFORT = (
         ),
         (
             LATCHED + "self.create_subscription(RobotState, 'robot_state', print, qos)",
-            "give self.on_state as the callback",
+            "pass self.on_state as the callback",
         ),
         (LATCHED, "the node has no subscription"),
     ],

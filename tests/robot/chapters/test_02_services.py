@@ -138,7 +138,7 @@ def test_the_careful_planner_catches_one_of_the_two_lies(chapter: Executed) -> N
         ("response.success = False", "return response inside the `if`"),
         ("return None", "end each path of the callback with `return response`"),
         ("return response", "an empty message"),
-        ("response.success = True\nreturn response", "success=True without one message on odom"),
+        ("response.success = True\nreturn response", "success=True although no odom has arrived"),
         ("response.succes = False\nreturn response", "AttributeError"),
     ],
 )
@@ -172,7 +172,7 @@ REFUSE = "response.success, response.message = False, 'cannot march'"
         ),
         (f"if request.data and ({EITHER}):\n    {REFUSE}", "set success to False and return response"),
         (f"if request.data and ({EITHER}):\n    {REFUSE}\n    return", "end each path of the callback"),
-        (UNKNOWN + "\n" + OFF.replace("not ", ""), "although robot_state says motors_enabled"),
+        (UNKNOWN + "\n" + OFF.replace("not ", ""), "although robot_state has motors_enabled true"),
         (
             UNKNOWN + "\n" + OFF.replace("request.data and ", "self.state and "),
             "for a stop while the motors are off",
@@ -186,17 +186,17 @@ def test_the_gap_of_a_refusal_says_what_is_wrong(gaps: GapTrials, lines: str, sa
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        ('return "walk home" if level < 0.20 else "go on"', "look at response.available first"),
+        ('return "walk home" if level < 0.20 else "go on"', "check response.available first"),
         (
             'if not response.available:\n    return "stop and report"\nreturn "walk home" if level < 0.2 else "go on"',
-            "ask math.isnan(level)",
+            "test math.isnan(level)",
         ),
         (
             'if not response.available or math.isnan(level):\n    return "stop and report"\n'
             'return "walk home" if level < 0.2 else "go on"',
-            "don't believe a number above 1",
+            "treat a number above 1 as unknown",
         ),
-        ('return "stop and report"', "0.0 is a charge like any other"),
+        ('return "stop and report"', "0.0 is a valid charge"),
         ('print("stop and report")', "end each path with `return`"),
         ("return levl", "NameError: name 'levl' is not defined in `return levl`"),
     ],

@@ -84,14 +84,17 @@ def test_a_refusal_is_exit_status_1_and_is_not_retried(chapter: Executed) -> Non
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        ("return future.result()", "still keeps the request"),
-        ("if future.done():\n    return future.result()\nreturn None", "still keeps the request"),
+        ("return future.result()", "still stores the request"),
+        ("if future.done():\n    return future.result()\nreturn None", "still stores the request"),
         (
             "client.remove_pending_request(future)\nreturn None",
-            "the server answered, and ask_once() returned None",
+            "the server responded, but ask_once() returned None",
         ),
         ("return future", "ask_once() returned a Future"),
-        ("while not future.done():\n    rclpy.spin_once(node)\nreturn future.result()", "had not returned"),
+        (
+            "while not future.done():\n    rclpy.spin_once(node)\nreturn future.result()",
+            "did not return within its limit of",
+        ),
         ("if future.done():\n    return future.result()\nraise TimeoutError('late')", "TimeoutError: late"),
     ],
 )
@@ -120,7 +123,7 @@ FIND = "if not client.wait_for_service(timeout_sec=left_until(deadline)):\n    r
             f"{FIND}left = left_until(deadline)\nfor _ in range(tries):\n"
             "    response = ask_once(node, client, request, min(PER_TRY, left))\n"
             "    if response is not None:\n        return response",
-            "give each try what is left at that moment",
+            "limit each try to the time that is left",
         ),
         (
             f"{FIND}for _ in range(tries):\n    response = ask_once(node, client, request, left_until(deadline))\n"
@@ -131,13 +134,13 @@ FIND = "if not client.wait_for_service(timeout_sec=left_until(deadline)):\n    r
             "client.wait_for_service(timeout_sec=PER_TRY)\nfor _ in range(tries):\n"
             "    response = ask_once(node, client, request, min(PER_TRY, left_until(deadline)))\n"
             "    if response is not None:\n        return response",
-            "nobody offers the service, 0.5 s for everything",
+            "no server offers the service and the deadline is 0.5 s away",
         ),
         (
             f"{FIND}for _ in range(tries):\n"
             "    response = ask_once(node, client, request, min(PER_TRY, deadline - time.monotonic()))\n"
             "    if response is not None:\n        return response",
-            "with a deadline that has passed",
+            "although its deadline had already passed",
         ),
     ],
 )

@@ -85,12 +85,18 @@ def test_an_exception_in_a_task_is_lost_until_somebody_reads_its_result(chapter:
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        ("if not response.success:\n    print(response.message, file=sys.stderr)", "and stdout says"),
-        ("if not response.success:\n    print(response.message)\n    return 1", "and stdout says"),
+        (
+            "if not response.success:\n    print(response.message, file=sys.stderr)",
+            "but the program printed on stdout",
+        ),
+        (
+            "if not response.success:\n    print(response.message)\n    return 1",
+            "but the program printed on stdout",
+        ),
         ("if not response.success:\n    return 1", "file=sys.stderr"),
         (
             "if not response.success:\n    print(response.message, file=sys.stderr)\n    return",
-            "exit status is 0",
+            "ended with exit status 0",
         ),
         (
             "print(response.message, file=sys.stderr)\nreturn 1",

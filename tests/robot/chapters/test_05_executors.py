@@ -164,7 +164,7 @@ OWN, DONE = ", callback_group=self.waiting", "lambda: future.set_result(None)"
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        ("import time\ntime.sleep(seconds)", "what blocks keeps the only thread"),
+        ("import time\ntime.sleep(seconds)", "a blocking call occupies the only thread"),
         ("import asyncio\nawait asyncio.sleep(seconds)", "asyncio's event loop doesn't run here"),
         (WAIT.format(DONE, "", "await future"), "give the timer callback_group=self.waiting"),
         (WAIT.format(DONE, OWN, "pass"), "await the future before you return"),
@@ -200,14 +200,20 @@ ASKING, CANCEL, RETURN = ", callback_group=self.asking", "future.cancel", "retur
     [
         ("return await self.client.call_async(Trigger.Request())", "let a timer call future.cancel"),
         (ASK.format(CANCEL, "", "await future", RETURN), "give the timer callback_group=self.asking"),
-        ("return self.client.call(Trigger.Request())", "no report within 3 s"),
-        (ASK.format(CANCEL, ASKING, "await future", "return None"), "let ask() return what `await future`"),
-        (ASK.format(CANCEL, ASKING, "future.result()", RETURN), "let ask() return what `await future`"),
+        ("return self.client.call(Trigger.Request())", "report did not respond within 3 s"),
+        (
+            ASK.format(CANCEL, ASKING, "await future", "return None"),
+            "let ask() return the value of `await future`",
+        ),
+        (
+            ASK.format(CANCEL, ASKING, "future.result()", RETURN),
+            "let ask() return the value of `await future`",
+        ),
         (ASK.format("self.client.cancel", ASKING, "await future", RETURN), "AttributeError"),
         (
             "if not self.client.wait_for_service(seconds):\n    return None\n"
             "return await self.client.call_async(Trigger.Request())",
-            "and no report within",
+            "report did not respond within",
         ),
         (
             ASK.format(CANCEL, ASKING, "await future", RETURN).replace("self.destroy_timer(limit)\n", ""),

@@ -234,7 +234,7 @@ END = "    result = self.result(start)\n    goal_handle.succeed()\n    return re
     ("lines", "said"),
     [
         (f"if {LEFT}:\n{END}", "SUCCEEDED while the robot was in mid-step"),
-        (f"near = {LEFT}\nself.stand_still()\nif near:\n{END}", "SUCCEEDED where the robot stands, 0."),
+        (f"near = {LEFT}\nself.stand_still()\nif near:\n{END}", "SUCCEEDED although the robot stands 0."),
         (
             "self.stand_still()\nresult = self.result(start)\ngoal_handle.succeed()\nreturn result",
             "more than 0.10 m",
@@ -295,7 +295,7 @@ WAIT = "time.sleep(PERIOD)"
             "distance_remaining never changes: 0.50 m",
         ),
         (TELL.replace("abs(", "(") + WAIT, "it is negative past the goal"),
-        (TELL.replace("=left)", "=left / 2)") + WAIT, "m left\n  next:     self.pose and abs("),
+        (TELL.replace("=left)", "=left / 2)") + WAIT, " m\n  next:     read self.pose and abs("),
         (TELL.replace(" - start.steps", "") + WAIT, "counted from the start of this goal"),
         (TELL.replace(EXPECT, "") + WAIT, "estimated_time_remaining 0 s, with 0."),
         (TELL + "time.sleep(1.0)", "a message every 1.0 s: 1 Hz"),
@@ -319,10 +319,10 @@ STEPS = "print(response.result.total_steps)\n"
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        (STEPS + "return 0", "ABORTED, and the client ended with exit status 0"),
+        (STEPS + "return 0", "ABORTED, but the client ended with exit status 0"),
         (
             STEPS + f"if response.status != GoalStatus.STATUS_SUCCEEDED:\n    {FAILED}    return 3\nreturn 0",
-            "look at the status before you print",
+            "check the status before you print",
         ),
         (
             f"if response.status != GoalStatus.STATUS_SUCCEEDED:\n    return 3\n{STEPS}return 0",
@@ -334,21 +334,21 @@ STEPS = "print(response.result.total_steps)\n"
         ),
         (
             f"if response.result.error_code:\n    {FAILED}    return 3\n{STEPS}return 0",
-            "UNKNOWN, and the client",
+            "UNKNOWN, but the client",
         ),
         (f"if response.status != 4:\n    {FAILED}    return 3\nreturn 0", "a line with the result's"),
         (f"if response.error_code:\n    {FAILED}    return 3\n{STEPS}return 0", "AttributeError"),
         (
             f"if response.status == GoalStatus.STATUS_ABORTED:\n    {FAILED}    return 3\n{STEPS}return 0",
-            "CANCELED, and the client ended with exit status 0",
+            "CANCELED, but the client ended with exit status 0",
         ),
         (
             f"if response.status in (5, 6):\n    {FAILED}    return 3\n{STEPS}return 0",
-            "UNKNOWN, and the client ended with exit status 0",
+            "UNKNOWN, but the client ended with exit status 0",
         ),
         (
             f"if response.status == GoalStatus.STATUS_SUCCEEDED:\n    {FAILED}    return 3\n{STEPS}return 0",
-            "ABORTED, and the client ended with exit status 0",
+            "ABORTED, but the client ended with exit status 0",
         ),
     ],
 )

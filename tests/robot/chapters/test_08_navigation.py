@@ -162,16 +162,19 @@ END = "return WALK if distance > REACH else THERE"
     ("lines", "said"),
     [
         (f"{LIMIT}if bearing > limit:\n    return TURN\n{END}", "a bearing to the right is negative"),
-        (f"if abs(bearing) > ALIGNED:\n    return TURN\n{END}", "it steers while it walks"),
-        (f"if abs(bearing) > ASTRAY:\n    return TURN\n{END}", "goes on until the bearing"),
-        (END, "a bearing over ASTRAY ends the walking"),
+        (
+            f"if abs(bearing) > ALIGNED:\n    return TURN\n{END}",
+            "in phase WALK a bearing below ASTRAY is allowed",
+        ),
+        (f"if abs(bearing) > ASTRAY:\n    return TURN\n{END}", "in phase TURN the bearing must get below"),
+        (END, "a bearing over ASTRAY ends the phase WALK"),
         (
             f"{LIMIT}if distance < REACH:\n    return THERE\nreturn TURN if abs(bearing) > limit else WALK",
-            "near is not enough",
+            "near the point the robot must also face it",
         ),
         (
             f"if phase == THERE:\n    return THERE\n{LIMIT}if abs(bearing) > limit:\n    return TURN\n{END}",
-            "a push took the robot away",
+            "the robot was pushed away",
         ),
         (f"{LIMIT}if abs(bearing) > limit:\n    return TURN", "end each path with `return`"),
         (f"{LIMIT}if abs(angle) > limit:\n    return TURN\n{END}", "NameError"),
@@ -187,9 +190,12 @@ PIECE = "for here in path:\n    piece = math.dist(last, here)\n"
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        (f"{PIECE}    metres += piece\n    last = here", "do nothing as long as the piece"),
-        ("pass", "add up pieces"),
-        (f"{PIECE}    if piece >= shortest:\n        metres += piece", "set last = here when a piece counts"),
+        (f"{PIECE}    metres += piece\n    last = here", "skip a piece that is shorter"),
+        ("pass", "add up the pieces"),
+        (
+            f"{PIECE}    if piece >= shortest:\n        metres += piece",
+            "set last = here when you count a piece",
+        ),
         (
             f"{PIECE}    if piece >= shortest:\n        metres = piece\n        last = here",
             "with +=",

@@ -141,18 +141,21 @@ BOTH = "[place_at(left, moment), place_at(right, moment)]\n"
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        (f"{POINTS}{LATER}        points[moment] = {BOTH}return points", "count their times from it"),
-        (f"{POINTS}    points[moment - now] = {BOTH}return points", "is a point"),
-        (f"{POINTS}    if moment >= now:\n        points[moment - now] = {BOTH}return points", "is a point"),
+        (f"{POINTS}{LATER}        points[moment] = {BOTH}return points", "count their times from `now`"),
+        (f"{POINTS}    points[moment - now] = {BOTH}return points", "needs a point"),
+        (
+            f"{POINTS}    if moment >= now:\n        points[moment - now] = {BOTH}return points",
+            "needs a point",
+        ),
         (
             f"{POINTS.replace('sorted({*left, *right})', 'left')}{LATER}        points[moment - now] = {BOTH}"
             "return points",
-            "is a point",
+            "needs a point",
         ),
         (
             f"{POINTS.replace('sorted({*left, *right})', '[*left, *right]')}{LATER}"
             f"        points[moment - now] = {BOTH}return points",
-            "take the moments in their order",
+            "take the moments in order",
         ),
         (f"{POINTS}{LATER}        points[moment - now] = {BOTH}", "end with `return` and a dict"),
         (
@@ -161,7 +164,7 @@ BOTH = "[place_at(left, moment), place_at(right, moment)]\n"
         ),
         (
             f"{POINTS}{LATER}        points[moment - now] = [place_at(left, moment)]\nreturn points",
-            "each point has both joints",
+            "each point needs the positions of both joints",
         ),
     ],
 )
@@ -178,13 +181,16 @@ LATE = "return MISSED if left < -PATIENCE else GO_ON"
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        (f"{PATH}{THERE}{LATE}", "ask whether `left` is over"),
-        (f"{LEFT}{PATH}{THERE}{LATE}", "ends the goal on the way, too"),
+        (f"{PATH}{THERE}{LATE}", "only when `left` is not above 0"),
+        (f"{LEFT}{PATH}{THERE}{LATE}", "ends the goal even while time is left"),
         (f"if error > GOAL_TOLERANCE:\n    return OFF_PATH\n{LEFT}return THERE", "counts only at the end"),
         (f"{PATH}{LEFT}{THERE}return MISSED", "PATIENCE seconds more"),
-        (f"{PATH}{LEFT}if left < -PATIENCE:\n    return MISSED\n{THERE}return GO_ON", "before MISSED"),
+        (
+            f"{PATH}{LEFT}if left < -PATIENCE:\n    return MISSED\n{THERE}return GO_ON",
+            "before you return MISSED",
+        ),
         (f"{PATH}{LEFT}{THERE}return GO_ON", "PATIENCE is over"),
-        (f"{LEFT}{THERE}{PATH}{LATE}", "ends the goal on the way, too"),
+        (f"{LEFT}{THERE}{PATH}{LATE}", "ends the goal even while time is left"),
         (f"{PATH}{LEFT}{THERE}", "end each path with `return`"),
         (f"{PATH}{LEFT}{THERE}return MISSED if late else GO_ON", "NameError"),
     ],
@@ -207,16 +213,16 @@ def test_the_gap_of_the_tolerances_says_what_is_wrong(gaps: GapTrials, lines: st
             "goal_handle.canceled()\nif hand.lower():\n    hand.open()\nreturn result",
             "CANCELED says that the robot is safe",
         ),
-        ("if hand.lower():\n    hand.open()\nreturn result", "without it rclpy aborts the goal"),
+        ("if hand.lower():\n    hand.open()\nreturn result", "without a terminal call rclpy aborts the goal"),
         ("if hand.lower():\n    hand.open()\ngoal_handle.abort()\nreturn result", "and with no other call"),
         (
             "if hand.lower():\n    hand.open()\n    goal_handle.canceled()\nelse:\n    goal_handle.abort()\n"
             "return result",
-            "also where the hand keeps the cup",
+            "even if the hand keeps the cup",
         ),
         (
             "if hand.lower():\n    hand.open()\n    goal_handle.canceled()\nreturn result",
-            "without it rclpy aborts",
+            "without a terminal call rclpy aborts",
         ),
         ("if hand.lower():\n    hand.open()\ngoal_handle.canceled()", "end with `return result`"),
         ("if self.hand.lower():\n    hand.open()\ngoal_handle.canceled()\nreturn result", "NameError"),

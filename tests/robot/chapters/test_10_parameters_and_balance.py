@@ -153,16 +153,19 @@ def test_phases_end_by_measurement(chapter: Executed) -> None:
             "circle:\n  ros__parameters:\n    speed: 0.2\n    turn: 0.25",
             "the node's full name, /robot/circle:",
         ),
-        ("/robot/circle:\n  speed: 0.2\n  turn: 0.25", "below the node stands ros__parameters:"),
+        ("/robot/circle:\n  speed: 0.2\n  turn: 0.25", "write ros__parameters: with two underscores"),
         ("/robot/circle:\n  ros_parameters:\n    speed: 0.2\n    turn: 0.25", "two underscores"),
-        ("/robot/circle:\n  ros__parameters:\n    speed: 0.2\n    turn: 0", "turn has to be a double"),
-        ("/robot/circle:\n  ros__parameters:\n    sped: 0.2\n    turn: 0.25", "there is no speed"),
+        ("/robot/circle:\n  ros__parameters:\n    speed: 0.2\n    turn: 0", "make turn a double"),
+        (
+            "/robot/circle:\n  ros__parameters:\n    sped: 0.2\n    turn: 0.25",
+            "add speed below ros__parameters",
+        ),
         (
             "/robot/circle:\n  ros__parameters:\n    speed: 0.25\n    turn: 0.2",
             "write speed: 0.2 and turn: 0.25",
         ),
         ("speed: 0.2\nturn: 0.25", "the node's full name, /robot/circle:"),
-        ("/robot/circle:\n  ros__parameters:\n    speed:0.2\n    turn:0.25", "a space follows each colon"),
+        ("/robot/circle:\n  ros__parameters:\n    speed:0.2\n    turn:0.25", "a space after each colon"),
     ],
 )
 def test_the_gap_of_the_file_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
@@ -198,7 +201,7 @@ OVER = "for parameter in parameters:\n    wanted[parameter.name] = parameter.val
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        (f"{DECIDED}{REFUSED}", "judge the new value"),
+        (f"{DECIDED}{REFUSED}", "check the new value"),
         (f"{OVER.replace('wanted', 'now')}{DECIDED}{REFUSED}", "deciding has no side effect"),
         (
             f'{OVER}if wanted["speed"] < TIGHTEST * abs(wanted["turn"]):\n{REFUSED}',
@@ -210,19 +213,19 @@ OVER = "for parameter in parameters:\n    wanted[parameter.name] = parameter.val
         ),
         (
             f'{OVER}if not wanted["speed"] / abs(wanted["turn"]) >= TIGHTEST:\n{REFUSED}',
-            "multiply, do not divide",
+            "multiply instead of dividing",
         ),
         (f"{OVER}{DECIDED}    return False", "return SetParametersResult(successful=False"),
         (f"{OVER}{DECIDED}    return SetParametersResult(successful=False)", "without a reason"),
         (
             "new = {parameter.name: parameter.value for parameter in parameters}\n"
             'if not new.get("speed", 0.0) >= TIGHTEST * abs(new.get("turn", 0.0)):\n' + REFUSED,
-            "take what is not in the list",
+            "take a value that is not in `parameters`",
         ),
         (
             "for parameter in parameters:\n    wanted[parameter.name] = parameter.value\n"
             '    if not wanted["speed"] >= TIGHTEST * abs(wanted["turn"]):\n    ' + REFUSED,
-            "before you judge",
+            "before you check the radius",
         ),
         (f"{OVER}{DECIDED}    raise ValueError('too tight')", "ends the node"),
     ],
@@ -239,10 +242,10 @@ LASTS = "return now - self.since >= self.seconds"
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        ("return is_so", "it has only just begun"),
-        (f"if not is_so:\n    return False\n{BEGIN}{LASTS}", "a break sets self.since back to None"),
-        (f"{FORGET}if not self.since:\n    self.since = now\n{LASTS}", "ask `self.since is None`"),
-        (f"{FORGET}self.since = now\n{LASTS}", "it is so for 0.55 s"),
+        ("return is_so", "the condition has only just become true"),
+        (f"if not is_so:\n    return False\n{BEGIN}{LASTS}", "set self.since to None when it is false"),
+        (f"{FORGET}if not self.since:\n    self.since = now\n{LASTS}", "test `self.since is None`"),
+        (f"{FORGET}self.since = now\n{LASTS}", "the condition has been true for 0.55 s"),
         (f"{FORGET}{BEGIN}return now - self.since >= 0.5", "compare with self.seconds"),
         (f"{FORGET}{BEGIN}return now - Steady.since >= self.seconds", "AttributeError"),
         (

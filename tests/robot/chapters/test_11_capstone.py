@@ -138,13 +138,13 @@ ASK = "    if self.should_stop(goal_handle) and not asked:\n        child.cancel
     [
         (
             "while not end.done():\n    time.sleep(TICK)",
-            "2 s after the cancel of the errand, go_ahead got none",
+            "go_ahead received no cancel request within 2 s",
         ),
-        (f"{LOOP}{ASK}        return\n    time.sleep(TICK)", "go on waiting until end.done()"),
+        (f"{LOOP}{ASK}        return\n    time.sleep(TICK)", "keep waiting until end.done()"),
         (
             f"{LOOP}    if self.should_stop(goal_handle):\n        goal_handle.canceled()\n        return\n"
             "    time.sleep(TICK)",
-            "nobody has cancelled its goal",
+            "but its child is still active",
         ),
         (
             "child.cancel_goal_async()\nwhile not end.done():\n    time.sleep(TICK)",
@@ -161,8 +161,8 @@ ASK = "    if self.should_stop(goal_handle) and not asked:\n        child.cancel
             "if goal_handle.is_cancel_requested:\n    goal_handle.canceled()",
             "finish() makes the terminal call",
         ),
-        (f"{LOOP}{ASK}        asked = True\n    time.sleep(TOCK)", "mend what this error names"),
-        (f"{LOOP}{ASK}    time.sleep(TICK)", "remember that you have asked"),
+        (f"{LOOP}{ASK}        asked = True\n    time.sleep(TOCK)", "fix the error that is named here"),
+        (f"{LOOP}{ASK}    time.sleep(TICK)", "remember that you have sent one"),
     ],
 )
 def test_the_gap_of_the_cancel_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
@@ -179,11 +179,14 @@ RETURN = '    return WalkTo.Result(error_msg="go_ahead is silent")\n'
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        (f"if not wait_for(end, PATIENCE):\n{CANCEL}{WAIT}{ABORT}{RETURN}", "measure the silence"),
+        (
+            f"if not wait_for(end, PATIENCE):\n{CANCEL}{WAIT}{ABORT}{RETURN}",
+            "measure the time since the last feedback",
+        ),
         (f"{SILENT}{ABORT}{RETURN}", "the child may still walk"),
         (f"{SILENT}{CANCEL}{ABORT}{RETURN}", "wait_for(end, PATIENCE)"),
         ("pass", "in every round"),
-        (f"{SILENT}{CANCEL}{WAIT}{ABORT}    return WalkTo.Result()", "a sentence that names go_ahead"),
+        (f"{SILENT}{CANCEL}{WAIT}{ABORT}    return WalkTo.Result()", "an error_msg that names go_ahead"),
         (f"{SILENT}{CANCEL}{WAIT}    goal_handle.canceled()\n{RETURN}", "end it with goal_handle.abort()"),
         (
             f"{SILENT}{CANCEL}    while not end.done():\n        time.sleep(TICK)\n{ABORT}{RETURN}",

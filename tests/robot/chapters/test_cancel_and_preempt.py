@@ -142,7 +142,10 @@ def test_a_goal_is_rejected_until_the_server_has_data(gaps: GapTrials) -> None:
             "result = self.result(first_step)\ngoal_handle.canceled()\nreturn result",
             "CANCELED while the robot was in mid-step",
         ),
-        ("self.stand_still()\nreturn self.result(first_step)", "status ABORTED; its log says: "),
+        (
+            "self.stand_still()\nreturn self.result(first_step)",
+            "the goal ended ABORTED; the node's log says: ",
+        ),
         ("self.stand_still()\ngoal_handle.canceled()", "end the branch with `return result`"),
         (
             "self.stand_still()\ngoal_handle.canceled()\nreturn WalkTo.Result()",
@@ -154,7 +157,7 @@ def test_a_goal_is_rejected_until_the_server_has_data(gaps: GapTrials) -> None:
         ),
         (
             "self.stand_still()\nresult = self.result(first_step)\ngoal_handle.succeed()\nreturn result",
-            "status SUCCEEDED",
+            "the goal ended SUCCEEDED",
         ),
         (
             "self.stand_still()\nresult = self.result(first_step)\nreturn goal_handle.cancel()",
@@ -173,7 +176,7 @@ def test_the_gap_of_the_cancelled_branch_says_what_is_wrong(gaps: GapTrials, lin
     [
         (
             "self.stand_still()\ngoal_handle.succeed()\nreturn self.result_with_log(first_step)",
-            "0°: SUCCEEDED with an empty result",
+            "the goal of 0° ended SUCCEEDED with an empty result",
         ),
         (
             "self.stand_still()\nresult = self.result(first_step)\ngoal_handle.succeed()\nreturn result",
@@ -181,9 +184,9 @@ def test_the_gap_of_the_cancelled_branch_says_what_is_wrong(gaps: GapTrials, lin
         ),
         (
             "self.stand_still()\nresult = self.result_with_log(first_step)\ngoal_handle.abort()\nreturn result",
-            "20°: ABORTED",
+            "the goal of 20° ended ABORTED",
         ),
-        ("self.stand_still()\nreturn self.result_with_log(first_step)", "20°: ABORTED"),
+        ("self.stand_still()\nreturn self.result_with_log(first_step)", "the goal of 20° ended ABORTED"),
         (
             "result = self.result_with_log(first_step)\ngoal_handle.succeed()\nreturn result",
             "call self.stand_still()",

@@ -44,7 +44,7 @@ lab.stop_nodes()""")
     assert "restart the kernel" not in again
 
     kernel.run("Path('my_interfaces/Level.msg').write_text('float64 percentage')")
-    assert "imported an earlier my_interfaces and keeps it" in kernel.run(
+    assert "imported an earlier version of my_interfaces and still uses it" in kernel.run(
         "lab.build_interfaces('my_interfaces')", 600
     )
     assert kernel.run("print(Level.get_fields_and_field_types())") == "{'percentage': 'float'}\n"

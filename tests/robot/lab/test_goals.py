@@ -56,7 +56,7 @@ def test_a_goal_that_takes_longer_can_be_waited_for_again(notebook: Kernel) -> N
 
 
 def test_no_server_is_reported(notebook: Kernel) -> None:
-    with pytest.raises(CellError, match=r"nobody offers /robot/stand_up \(StandUp\)"):
+    with pytest.raises(CellError, match=r"no node offers /robot/stand_up \(StandUp\)"):
         notebook.run("lab.send_goal('stand_up', StandUp, StandUp.Goal(), timeout=0.5)")
 
 

@@ -61,6 +61,6 @@ def test_the_text_alternative_names_publishers_and_subscribers(robot: Kernel) ->
 
 def test_an_absolute_name_is_another_topic(robot: Kernel) -> None:
     with pytest.raises(
-        CellError, match=r"no node publishes or subscribes to /odom; there are: .*/robot/odom"
+        CellError, match=r"no node publishes or subscribes to /odom; the topics are: .*/robot/odom"
     ):
         robot.run("lab.draw_graph('/odom')")

@@ -65,7 +65,7 @@ def test_a_time_line_shows_the_server_and_its_end(recorded: Kernel) -> None:
 
 
 def test_without_a_robot_recording_is_refused(kernel: Kernel) -> None:
-    kernel.run("lab.stop_robot(); lab.client.topics.enter('flat')")
+    kernel.run("lab.stop_robot(); lab.client.topics.reset_for_scene('flat')")
     printed = kernel.run("""
         try:
             with lab.record_robot():
@@ -73,7 +73,7 @@ def test_without_a_robot_recording_is_refused(kernel: Kernel) -> None:
         except lab.NoRobotError as error:
             print(error)
     """)
-    assert "nothing arrived on /robot/robot_state" in printed
+    assert "no message arrived on /robot/robot_state" in printed
 
 
 def test_the_cup_and_the_grip_are_recorded_at_the_table(own_kernel: Kernel) -> None:

@@ -85,7 +85,7 @@ def test_a_camera_that_does_not_exist_is_refused(robot: Kernel) -> None:
 
 def test_without_a_robot_the_error_says_what_to_do(kernel: Kernel) -> None:
     kernel.run("lab.stop_robot()")
-    with pytest.raises(CellError, match=r"nothing arrived on /robot/odom .* Try lab.start_robot\(\)"):
+    with pytest.raises(CellError, match=r"no message arrived on /robot/odom .* Try lab.start_robot\(\)"):
         kernel.run("import time; time.sleep(1.2); lab.client.topics.latest('odom', timeout=0.5)")
 
 

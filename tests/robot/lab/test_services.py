@@ -37,7 +37,10 @@ print(old.is_running, [lab.call("add", AddTwoInts).sum for _ in range(5)])""")
 @pytest.mark.parametrize(
     ("cell", "expected"),
     [
-        ("lab.call('ad', AddTwoInts)", r"nobody offers /robot/ad \(AddTwoInts\).*there are: /robot/add\."),
+        (
+            "lab.call('ad', AddTwoInts)",
+            r"no node offers /robot/ad \(AddTwoInts\).*the nodes offer: /robot/add\.",
+        ),
         ("lab.call('add', AddTwoInts, Trigger.Request())", r"add takes a AddTwoInts\.Request"),
         (
             "lab.call('add', AddTwoInts, AddTwoInts.Request(b=-1))",

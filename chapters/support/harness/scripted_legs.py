@@ -1,9 +1,9 @@
-"""Plays go_ahead without a robot, and prints a line of JSON for each thing that happens to a goal.
+"""A test double of the action server go_ahead, without a robot; it prints a line of JSON for each event of a goal.
 
-    played_legs.py steady     feedback all the time
-    played_legs.py mute       three messages of feedback, and then none
+    scripted_legs.py steady     publishes feedback until the goal ends
+    scripted_legs.py silent     publishes three feedback messages, then none
 
-A goal's position.x is how long it works, in s. After a cancel it goes on for a second.
+The goal's position.x is its duration in s. After a cancel request the goal takes another second to end.
 """
 
 from __future__ import annotations
@@ -20,33 +20,33 @@ from rclpy.utilities import remove_ros_args
 
 from humanoid_interfaces.action import WalkTo
 
-PERIOD = 0.1  # s
-AFTER_A_CANCEL = 1.0  # s
-BEFORE_MUTE = 3  # messages
+PERIOD = 0.1  # s between feedback messages
+CANCEL_DURATION = 1.0  # s
+MESSAGES_BEFORE_SILENCE = 3
 
 
-def tell(what: str) -> None:
-    """Print what happens now, for the check."""
+def report(what: str) -> None:
+    """Print an event for the check."""
     print(json.dumps({"what": what}), flush=True)
 
 
-class TellingServer(ActionServer):
-    """Tells of each cancel request; a cancel callback is not called again for a goal that is being cancelled."""
+class ReportingActionServer(ActionServer):
+    """Reports every cancel request, because rclpy calls the cancel callback only for the first one of a goal."""
 
     async def execute(self, taken_data: Any) -> None:
-        """Tell, and serve what has arrived."""
+        """Report a cancel request, and handle it as usual."""
         if "cancel" in taken_data:
-            tell("cancel")
+            report("cancel")
         await super().execute(taken_data)
 
 
-class PlayedLegs(Node):
-    """Offers go_ahead, and moves nothing."""
+class ScriptedLegs(Node):
+    """Serves go_ahead, but moves no robot."""
 
     def __init__(self, how: str) -> None:
         super().__init__("legs")
-        self._is_mute = how == "mute"
-        self.server = TellingServer(
+        self._falls_silent = how == "silent"
+        self.server = ReportingActionServer(
             self,
             WalkTo,
             "go_ahead",
@@ -56,28 +56,28 @@ class PlayedLegs(Node):
         )
 
     def _execute(self, goal_handle: Any) -> Any:
-        tell("accepted")
+        report("accepted")
         until = time.monotonic() + goal_handle.request.target_pose.pose.position.x
-        told = 0
+        published = 0
         while time.monotonic() < until and rclpy.ok():
             if goal_handle.is_cancel_requested:
-                time.sleep(AFTER_A_CANCEL)
-                tell("CANCELED")
+                time.sleep(CANCEL_DURATION)
+                report("CANCELED")
                 goal_handle.canceled()
                 return WalkTo.Result()
-            if not self._is_mute or told < BEFORE_MUTE:
+            if not self._falls_silent or published < MESSAGES_BEFORE_SILENCE:
                 goal_handle.publish_feedback(WalkTo.Feedback())
-                told += 1
+                published += 1
             time.sleep(PERIOD)
-        tell("SUCCEEDED")
+        report("SUCCEEDED")
         goal_handle.succeed()
         return WalkTo.Result()
 
 
 def main() -> None:
-    """Serve until Ctrl-C."""
+    """Run the node until Ctrl-C."""
     rclpy.init()
-    node = PlayedLegs(remove_ros_args()[1])
+    node = ScriptedLegs(remove_ros_args()[1])
     executor = MultiThreadedExecutor(num_threads=8)
     executor.add_node(node)
     try:

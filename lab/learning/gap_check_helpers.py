@@ -1,4 +1,4 @@
-"""Functions that the checks of several gaps share."""
+"""Helpers of the gap checks: they run a student's code and turn its errors into messages for the student."""
 
 from __future__ import annotations
 
@@ -10,17 +10,19 @@ from pathlib import Path
 from typing import Any
 
 from lab.client.services import call
-from lab.client.waiting import comes_true
+from lab.client.waiting import becomes_true
 from lab.errors import NoAnswerError
 from lab.learning.gap import not_yet
 from lab.running.student_nodes import StudentNode
 
 TO_END = 1.0  # s; long enough for a node to exit after an exception
-HINTS = {"TypeError": "end each path of the callback with `return response`"}  # rclpy's message says no more
+HINTS = {
+    "TypeError": "end each path of the callback with `return response`"
+}  # rclpy's message does not explain it
 NO_HINTS: Mapping[str, str] = {}
 
 
-def ask(
+def call_student_service(
     server: StudentNode,
     name: str,
     service_type: type,
@@ -30,21 +32,21 @@ def ask(
 ) -> Any:
     """Call a service of the student's node and return its response.
 
-    `hints`: the next step if the node has ended, by a part of the last line of its log.
+    `hints` maps a part of the last line of the node's log to the advice that the student gets if the node has ended.
 
-    Raises GapError when no response arrives; it says whether the node has ended, and with which error.
+    Raises GapError when no response arrives; the message says whether the node has ended, and with which error.
     """
     try:
         return call(name, service_type, request)
     except NoAnswerError:
         pass
-    ended = comes_true(lambda: not server.is_running, TO_END)
-    reason = last_words(server.log(), server.file.name)
+    ended = becomes_true(lambda: not server.is_running, TO_END)
+    reason = last_error_or_line(server.log(), server.file.name)
     if ended:
         known = {**hints, **HINTS}
-        advice = next((known[part] for part in known if part in reason), "mend what this error names")
+        advice = next((known[part] for part in known if part in reason), "fix the error that is named here")
     else:
-        advice = "look for what keeps the callback from returning"
+        advice = "find out why the callback does not return"
     seen = f"no response within 2 s; the node {f'has ended: {reason}' if ended else 'still runs'}"
     raise not_yet(seen, "a response", advice)
 
@@ -58,31 +60,31 @@ def last_error(log: str, file: str) -> str:
     return f"{errors[-1]}{where}" if errors else ""
 
 
-def last_words(log: str, file: str) -> str:
+def last_error_or_line(log: str, file: str) -> str:
     """Return the last exception in a log as `last_error` does, or else its last line."""
     return last_error(log, file) or (log.strip().splitlines() or ["it printed nothing"])[-1]
 
 
 def read_program(file: str) -> dict[str, Any]:
-    """Run a student's file and return what it defines.
+    """Run a student's file and return the names that it defines, with their values.
 
-    Raises GapError when that raises.
+    Raises GapError when the file raises an exception.
     """
-    return asked(lambda: runpy.run_path(file), file)
+    return run_student_code(lambda: runpy.run_path(file), file)
 
 
-def asked(call: Callable[[], Any], file: str, *, hints: Mapping[str, str] = NO_HINTS) -> Any:
-    """Call what the student wrote in `file` and return what it returns.
+def run_student_code(code: Callable[[], Any], file: str, *, hints: Mapping[str, str] = NO_HINTS) -> Any:
+    """Call a function that the student wrote in `file`, and return its value.
 
-    `hints` are what to do next when it raises, by a part of the error's name.
+    `hints` maps a part of an exception's name to the advice that the student gets when it is raised.
 
-    Raises GapError when that raises; it quotes the student's line.
+    Raises GapError when the function raises an exception; the message quotes the student's line.
     """
     try:
-        return call()
+        return code()
     except Exception as problem:
         lines = [f for f in traceback.extract_tb(problem.__traceback__) if Path(f.filename).name == file]
         where = f" in `{lines[-1].line}`" if lines else ""
         error = type(problem).__name__
-        advice = next((hints[part] for part in hints if part in error), "mend what this error names")
+        advice = next((hints[part] for part in hints if part in error), "fix the error that is named here")
         raise not_yet(f"{error}: {problem}{where}", "no exception", advice) from None
