@@ -25,7 +25,7 @@ from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.srv import GetJointPositions
 from ros_runtime.record.event import to_line
 from ros_runtime.recorded_client.action_client import ActionClient
-from ros_runtime.recorded_client.conversation import UNKNOWN_GOAL, Conversation
+from ros_runtime.recorded_client.conversation import Conversation
 from ros_runtime.recorded_client.goal import Goal
 from ros_runtime.recorded_client.service_client import ServiceClient
 
@@ -162,7 +162,7 @@ def test_the_size_of_a_message_is_known_without_deserializing_it(fields: dict[st
 def test_feedback_for_unknown_goals_does_not_displace_feedback_of_known_goals(log: ArenaLog) -> None:
     walking = Walking(log)
     for _ in range(MOST_UNMATCHED + 600):
-        walking.on_feedback(walking.feedback(goal_id=UNKNOWN_GOAL))
+        walking.on_feedback(walking.feedback(goal_id=UNKNOWN_ID))
     walking.on_feedback(walking.feedback())
     assert log.count(ev.FeedbackReceived, goal="walk") == len(walking.goal.feedback) == 1
     assert dropped(log) == [(ev.FeedbackReceived.kind, 600)]

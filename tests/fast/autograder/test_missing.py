@@ -177,7 +177,7 @@ def test_more_processors_may_be_busy_where_the_clock_is_fast():
 @pytest.mark.parametrize(
     "reason", [REFUSED, BUSY, AT_ONCE, ev.ArenaOverfull(memory_mib=3100, limit_mib=1536)]
 )
-def test_a_submission_that_holds_the_robot_up_fails(reason):
+def test_a_submission_that_delays_the_robot_fails(reason):
     with pytest.raises(Failure, match="simulation stood still"):
         require_whole(transcript(reason, robot_until=4.0), WITH_ROBOT)
 

@@ -104,9 +104,9 @@ def test_the_table_has_a_bar_for_each_part_and_links_that_lead_somewhere(
 def test_the_last_self_check_is_kept_above_the_exercises(tmp_path: Path) -> None:
     file = tmp_path / ".progress.json"
     (tmp_path / "battery_service").mkdir()
-    store_check("battery_service", 3, 7, file)
-    store_check("battery_service", 7, 7, file)
-    store_check("of_another_course", 1, 1, file)
+    store_check("battery_service", 3, 7, file=file)
+    store_check("battery_service", 7, 7, file=file)
+    store_check("of_another_course", 1, 1, file=file)
     assert {name: (kept.passed, kept.total) for name, kept in last_checks(file).items()} == {
         "battery_service": (7, 7)
     }
