@@ -19,11 +19,12 @@ from autograder.handing_in import handed_in_now, hidden_checks, save_notebook
 from autograder.isolation.availability import available_isolation
 from autograder.recording.kept import Recordings, keep
 from autograder.report.running import RunningLine
-from autograder.report.table import grade_table, print_beginning, print_retry, print_verdict
+from autograder.report.table import grade_table, print_beginning, print_retry, print_verdict, summary
 from ros_runtime.self_checks import store_check
 
 if TYPE_CHECKING:
     from autograder.recording.recorder import Recorder
+    from autograder.report.notebook_table import NotebookTable
 
 NOTEBOOK_WIDTH = 104  # characters; fits into JupyterLab with its file browser on a screen of 1280 pixels
 
@@ -109,7 +110,8 @@ def check_with_progress(
             f"No isolation: {isolation.reason}. All visible checks are run; a grade made here is “untrusted”."
         )
         console.print(said, style="yellow", markup=False)
-    with RunningLine(console, in_notebook=Console().is_jupyter) as line:
+    table = _notebook_table(loaded) if Console().is_jupyter else None
+    with RunningLine(console, in_notebook=table is not None) as line:
 
         def report(verdict: CheckVerdict) -> None:
             with line.aside():
@@ -121,14 +123,23 @@ def check_with_progress(
 
         options = GradingOptions(jobs=jobs, first_alone=True, recorded=recorder is not None)
         watcher = Watcher(report, on_retry, on_running=line.show)
+        if table:
+            watcher = Watcher(table.add, on_evidence=table.draw, on_running=line.show)
         if recorder:
             watcher = replace(watcher, on_evidence=recorder.add)
         result = grade(submission, loaded, options, watcher, arenas=arenas)
     console.print()
-    console.print(grade_table(result))
+    console.print(Text(summary(result), style="bold") if table else grade_table(result))
     if recordings and recorder:
         _keep_recordings(console, recordings, recorder.files(result))
     return result
+
+
+def _notebook_table(exercise: Exercise) -> NotebookTable:
+    # imported only if needed, so that a terminal shows the first verdict sooner
+    from autograder.report.notebook_table import NotebookTable
+
+    return NotebookTable(exercise.checks)
 
 
 def _recorder(exercise: Exercise) -> Recorder:

@@ -31,7 +31,7 @@ def print_beginning(console: Console, path: Path, exercise: Exercise) -> None:
     """Print what is checked and how long it takes, before the first verdict."""
     count = len(exercise.checks)
     console.print(
-        f"{path}: {count} checks, each shown as soon as its verdict is known; all of them take less than a minute.",
+        f"{path}: {count} checks, each shown as soon as its verdict is known.",
         markup=False,
     )
 

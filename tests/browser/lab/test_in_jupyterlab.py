@@ -152,6 +152,10 @@ def test_a_self_check_saves_the_program_that_it_checks(page: Page, folder: Path,
     page.get_by_text("Run All Cells", exact=True).click()
     page.get_by_text("is saved with the program that was checked").wait_for()
     assert "not saved yet" in notebook.read_text()
+    failed = page.locator(".course-verdicts details[open]").first
+    assert "failed: Each of the twelve situations" in failed.inner_text()
+    failed.get_by_role("link", name="Topic, service or action?").click()
+    page.get_by_role("heading", name="Topic, service or action?").wait_for()
 
 
 def seen(page: Page) -> np.ndarray:

@@ -1,0 +1,78 @@
+"""The verdicts of a self-check as a part of the notebook's page, which is updated while the checks run."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from threading import Lock
+
+from IPython.display import display
+from markupsafe import Markup, escape
+
+from autograder.authoring.checks import Check
+from autograder.authoring.evidence.transcript import Transcript
+from autograder.engine.verdict import CheckVerdict
+from autograder.report.rendering import ENVIRONMENT
+from autograder.report.sequence import transcript_svg
+from autograder.report.table import MARKS
+
+_LESSON = re.compile(r"chapters/(\w+)\.ipynb(?:, “([^”]+)”)?")
+
+
+class NotebookTable:
+    """Shows the verdicts of a self-check; its methods may be called on any thread."""
+
+    def __init__(self, checks: Sequence[Check]) -> None:
+        self._checks = checks
+        self._verdicts: dict[str, CheckVerdict] = {}
+        self._drawings: dict[str, Markup] = {}
+        self._changing = Lock()
+        self._shown = display(self._content(), raw=True, display_id=True)
+
+    def add(self, verdict: CheckVerdict) -> None:
+        """Show a verdict."""
+        with self._changing:
+            self._verdicts[verdict.id] = verdict
+            self._update()
+
+    def draw(self, verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> None:
+        """Draw the last run that a failed check was judged on."""
+        if verdict.status == "failed" and transcripts:
+            title = transcripts[-1].scenario.replace("_", " ")
+            with self._changing:
+                self._drawings[verdict.id] = Markup(transcript_svg(transcripts[-1], title))
+                self._update()
+
+    def _update(self) -> None:
+        if self._shown is not None:
+            self._shown.update(self._content(), raw=True)
+
+    def _content(self) -> dict[str, str]:
+        """Return the table as HTML, and as text for programs that show none."""
+        judged = [self._verdicts[check.id] for check in self._checks if check.id in self._verdicts]
+        folded = {
+            "passed": [verdict.title for verdict in judged if verdict.status == "passed"],
+            "not judged yet": [check.title for check in self._checks if check.id not in self._verdicts],
+        }
+        template = ENVIRONMENT.get_template("self_check.html")
+        html = template.render(judged=judged, folded=folded, drawings=self._drawings, with_links=with_links)
+        return {"text/html": html, "text/plain": "\n".join(map(_in_text, judged))}
+
+
+def with_links(text: str) -> Markup:
+    """Return a text with links to the lessons that it names, as seen from an exercise's folder."""
+
+    def link(found: re.Match[str]) -> str:
+        heading = (found[2] or "").replace(" ", "-")
+        anchor = f"#{heading}" if heading else ""
+        return f'<a href="../../chapters/{found[1]}.ipynb{anchor}">{found[0]}</a>'
+
+    return Markup(_LESSON.sub(link, str(escape(text))))
+
+
+def _in_text(verdict: CheckVerdict) -> str:
+    lines = [f"{MARKS[verdict.status][0]} {verdict.title}  {verdict.points}/{verdict.max_points}"]
+    if verdict.status != "passed":
+        parts = {"expected": verdict.expected, "observed": verdict.observed, "next": verdict.help}
+        lines += [f"    {name}  {text}" for name, text in parts.items() if text]
+    return "\n".join(lines)

@@ -1,0 +1,58 @@
+"""The verdicts of a self-check in a notebook: failed ones are open, lessons are links, all is there as text, too."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
+from autograder.engine.exercise import load_exercise
+from autograder.engine.verdict import CheckVerdict
+from autograder.report import notebook_table as module
+from autograder.report.notebook_table import NotebookTable, with_links
+
+CHECKS = load_exercise("battery_service", hidden=False).checks
+
+
+@pytest.fixture
+def shown(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, str]]:
+    """What was displayed, newest last."""
+    contents: list[dict[str, str]] = []
+
+    class Display:
+        def update(self, content: dict[str, str], **_: Any) -> None:
+            contents.append(content)
+
+    def display(content: dict[str, str], **_: Any) -> Display:
+        contents.append(content)
+        return Display()
+
+    monkeypatch.setattr(module, "display", display)
+    return contents
+
+
+def test_failed_checks_are_open_and_the_others_folded(shown: list[dict[str, str]]) -> None:
+    table = NotebookTable(CHECKS)
+    assert f"{len(CHECKS)} not judged yet" in shown[-1]["text/html"]
+    table.add(CheckVerdict(CHECKS[0].id, CHECKS[0].title, "passed", 1, 1))
+    failed = CheckVerdict(
+        CHECKS[1].id, "<b>", "failed", 0, 2, expected="a node", observed="none", help="Start it."
+    )
+    table.draw(failed, [Transcript.from_events("in_order", {}, [ev.NodeReady(t=0.5, waited=0.5)])])
+    table.add(failed)
+    html = shown[-1]["text/html"]
+    assert "failed: &lt;b&gt; (0/2)" in html
+    assert html.count("<details open") == 1
+    assert "1 passed" in html
+    assert f"{len(CHECKS) - 2} not judged yet" in html
+    assert "<svg" in html
+    assert "    expected  a node\n    observed  none\n    next  Start it." in shown[-1]["text/plain"]
+
+
+def test_a_lesson_is_a_link_to_its_heading() -> None:
+    text = "Read chapters/02_services.ipynb, “Pitfall: no return”."
+    href = "../../chapters/02_services.ipynb#Pitfall:-no-return"
+    assert f'<a href="{href}">chapters/02_services.ipynb, “Pitfall: no return”</a>.' in with_links(text)
+    assert "&lt;script&gt;" in with_links("<script>")
