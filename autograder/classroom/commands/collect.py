@@ -15,6 +15,8 @@ from autograder.classroom.collect.download import UnusableDownload, open_downloa
 from autograder.classroom.collect.handed_in import Assignment, Reading
 from autograder.classroom.collect.placing import Placed, place
 from autograder.engine.exercise import UnknownExercise, all_names
+from autograder.engine.hand_in import work_in
+from autograder.engine.submission import UnusableSubmission, read_submission
 from course_cli.ending import COMMAND_FAILED, error_exit
 from course_cli.options import CourseOption
 
@@ -93,6 +95,9 @@ def _print_summary(console: Console, reading: Reading, placed: Placed, out: Path
     late = sorted({one.student for one in reading.files if one.late})
     if late:
         console.print(f"late, according to the platform: {', '.join(late)}", markup=False)
+    for student, exercise in placed.written:
+        line = f"{student} · {exercise}  {_fingerprint(out / student / exercise, exercise)}"
+        console.print(line, style="dim", markup=False, soft_wrap=True)
     students = {student for student, _ in [*placed.written, *placed.unchanged]}
     unchanged = f", {len(placed.unchanged)} unchanged" if placed.unchanged else ""
     console.print(
@@ -102,3 +107,12 @@ def _print_summary(console: Console, reading: Reading, placed: Placed, out: Path
     )
     if placed.written:
         console.print(f"grade them: ./course grade {out}", style="dim", markup=False)
+
+
+def _fingerprint(folder: Path, exercise: str) -> str:
+    """Return the fingerprint of a submission, as `course submit` printed it to the student."""
+    try:
+        path, _ = work_in(folder, exercise, depth=0) or (folder, [])
+        return f"fingerprint {read_submission(path, exercise).fingerprint}"
+    except UnusableSubmission:
+        return "cannot be read as a submission: `course grade` says why"

@@ -178,7 +178,7 @@ def test_a_file_of_any_name_counts_where_the_exercise_is_given(tmp_path: Path) -
     assert "walk_to.py is for walk_to, not for battery_service" in said(done)
     assert "notes.txt is not named like an exercise" in said(done)
     assert "hw.zip is an archive, and archives are not opened: unpack the download" in said(done)
-    assert "no submission from: bo-3, jo-4, kim-2 1 submissions" in said(done)
+    assert "no submission from: bo-3, jo-4, kim-2 leeanna-1 · battery_service fingerprint " in said(done)
 
 
 def test_files_with_the_expected_name_are_preferred(tmp_path: Path) -> None:
