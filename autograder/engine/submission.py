@@ -14,6 +14,7 @@ from autograder.engine.notebook import code_cells, written_by
 from autograder.engine.program_text import NoProgram, bytes_of, text_of
 from ros_runtime.course_error import CourseError
 
+NO_PROGRAMS = (".md", ".pdf", ".docx", ".odt", ".html", ".zip", ".json", ".csv", ".png")  # endings of files
 MAX_BYTES = 1_000_000  # of a file a student writes
 MAX_NOTEBOOK_BYTES = 50_000_000  # a notebook also holds pictures of the robot
 CLEAR_OUTPUTS = (
@@ -78,6 +79,8 @@ def read_submission(path: Path, exercise: str, student: str = "you") -> Submissi
     elif path.is_dir():
         files = {name: path / name for name in names if (path / name).exists()}
     elif len(names) == 1:
+        if path.suffix.lower() in NO_PROGRAMS:
+            raise UnusableSubmission(f"{path} is no program; give {names[0]} or {exercise}.ipynb")
         files = {names[0]: path}
     else:
         raise UnusableSubmission(

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -17,6 +19,8 @@ from autograder.handing_in import hidden_checks
 from course_cli.ending import COMMAND_FAILED, NOT_GRADED
 from course_cli.options import CourseOption, JobsOption
 from course_cli.own_work import own_work
+
+FILE_WIDTH = 200  # characters, of lines that go to a file or a pipe; it breaks no path
 
 
 def check(
@@ -36,7 +40,8 @@ def check(
     course: CourseOption = None,
 ) -> None:
     """Check your own solution of an exercise."""
-    console = Console(highlight=False)
+    is_file = not sys.stdout.isatty() and "COLUMNS" not in os.environ
+    console = Console(highlight=False, width=FILE_WIDTH if is_file else None)
     path, left_aside = own_work(exercise, file)
     for line in left_aside:
         console.print(f"left aside: {line}", style="yellow", markup=False)
