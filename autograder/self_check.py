@@ -15,7 +15,7 @@ from autograder.engine.grading import GradingOptions, Watcher, grade
 from autograder.engine.submission import place_of_work, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.handing_in import handed_in_now, hidden_checks, save_notebook
+from autograder.hand_in_notice import hidden_checks_notice, saved_work_notice
 from autograder.isolation.availability import available_isolation
 from autograder.recording.kept import Recordings, keep
 from autograder.report.running import RunningLine
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from autograder.recording.recorder import Recorder
     from autograder.report.notebook_table import NotebookTable
 
+# What JupyterLab's own button does; other editors ignore it.
+_SAVE = "document.querySelector('.jp-NotebookPanel:not(.lm-mod-hidden) [data-command=\"docmanager:save\"]')?.click()"
 NOTEBOOK_WIDTH = 104  # characters; fits into JupyterLab with its file browser on a screen of 1280 pixels
 
 
@@ -56,13 +58,27 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
     Raises `UnusableSubmission` when the file cannot be read.
     """
     console = _console()
-    save_notebook()
+    _save_notebook()
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
     result = check_and_keep(console, path, exercise)
-    for line in (Text(hidden_checks(exercise)), Text() if file else handed_in_now(exercise, result.program)):
+    for line in (
+        Text(hidden_checks_notice(exercise)),
+        Text() if file else saved_work_notice(exercise, result.program),
+    ):
         if line:
             console.print(line)
     return SelfCheck(result)
+
+
+def _save_notebook() -> None:
+    """Have JupyterLab save the notebook that is shown, while its cell runs on."""
+    if Console().is_jupyter:
+        from IPython.display import Javascript, display  # not needed in a terminal
+
+        shown = display(Javascript(_SAVE), display_id=True)
+        if shown is not None:
+            # the script must not stay in the notebook, because it would run again when the notebook is opened
+            shown.update({"text/plain": ""}, raw=True)
 
 
 def check_and_keep(

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 
 from robot_sim.arms.hand import Hand
-from robot_sim.arms.joint_brakes import GRIP, JointBrakes
+from robot_sim.arms.joint_brakes import BRAKE_TORQUE, JointBrakes
 from robot_sim.arms.joint_trajectory import HOLD, JointTrajectory
 from robot_sim.arms.reach import HandTarget, Reach
 from robot_sim.arms.upper_body import UpperBody
@@ -243,7 +243,7 @@ class Humanoid:
         self._pusher.push(impulse, duration)
         self._rest.wake()
 
-    def hold_joint(self, joint: str, grip: float = GRIP) -> None:
+    def hold_joint(self, joint: str, grip: float = BRAKE_TORQUE) -> None:
         """Hold a joint of waist, head or arm in its position, with at most `grip` (N·m), until `release_joint`.
 
         Raises:

@@ -17,7 +17,7 @@ KIND = "checks"
 
 @dataclass(frozen=True)
 class LastCheck:
-    """How a self-check ended: visible checks passed, of how many, when (ISO 8601, local time), and of which program."""
+    """The outcome of a self-check: visible checks passed, their total, the time (ISO 8601, local), the fingerprint."""
 
     passed: int
     total: int

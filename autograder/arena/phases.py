@@ -26,7 +26,7 @@ def since_start(name: str) -> Phase:
 
 
 class Stopwatch:
-    """Measures one phase after the other, over every process in this process's /proc."""
+    """Measures the real time and the processor time of consecutive phases, summed over all processes in /proc."""
 
     def __init__(self) -> None:
         self._wall, self._cpu = real_monotonic_ns(), _processor_seconds()

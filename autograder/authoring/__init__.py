@@ -46,7 +46,7 @@ from autograder.authoring.requirements.feedback import (
 )
 from autograder.authoring.requirements.standard_obligations import (
     answered_within,
-    answers_from_memory,
+    answers_without_waiting,
     one_or_several,
     require_fastest,
 )

@@ -15,7 +15,7 @@ from autograder.engine.essay import load_essay
 from autograder.engine.exercise import essay_names, exercise_names, scenario_file
 from autograder.engine.submission import read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
-from autograder.handing_in import hidden_checks
+from autograder.hand_in_notice import hidden_checks_notice
 from course_cli.ending import COMMAND_FAILED, NOT_GRADED
 from course_cli.options import CourseOption, JobsOption
 from course_cli.own_work import own_work
@@ -56,7 +56,7 @@ def check(
 
         folder = Path("recordings") / exercise if record else None
         result = check_and_keep(console, path, exercise, jobs=jobs, arenas=arenas, recordings=folder)
-    if later := hidden_checks(exercise):
+    if later := hidden_checks_notice(exercise):
         console.print(later, markup=False)
     if json_file:
         json_file.write_text(json.dumps(result.to_json(), indent=2) + "\n")

@@ -14,7 +14,6 @@ from rich.text import Text
 
 from autograder.engine.exercise import essay_names, file_names
 from autograder.engine.submission import Submission, read_submission
-from autograder.handing_in import hidden_checks
 from course_cli.options import CourseOption
 from course_cli.own_work import own_work
 from ros_runtime.self_checks import last_checks
@@ -84,7 +83,7 @@ def _last_check(submission: Submission) -> Text:
         return Text(
             f"This program has not been checked. Next: ./course check {submission.exercise}", "yellow"
         )
-    later = hidden_checks(submission.exercise)
+    later = hidden_checks_notice(submission.exercise)
     return Text(
         f"Last self-check of this program: {last.passed} of {last.total} visible checks passed. {later}"
     )

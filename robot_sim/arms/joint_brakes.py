@@ -8,7 +8,7 @@ import numpy as np
 from robot_sim.arms.joint_trajectory import MOVABLE
 
 STIFFNESS = 600.0  # N·m/rad; three times an arm's servo
-GRIP = 80.0  # N·m, twice what the strongest motor of an arm has
+BRAKE_TORQUE = 80.0  # N·m, twice the torque of an arm's strongest motor
 
 
 class JointBrakes:
@@ -21,7 +21,7 @@ class JointBrakes:
         self._model, self._data = model, data
         self._held: dict[str, tuple[int, int, float, float]] = {}
 
-    def hold(self, joint: str, grip: float = GRIP) -> None:
+    def hold(self, joint: str, grip: float = BRAKE_TORQUE) -> None:
         """Hold a joint with at most `grip` (N·m).
 
         Raises:

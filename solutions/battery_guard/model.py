@@ -35,7 +35,7 @@ def sends_it_only_when_it_may(life: GuardLife) -> str:
         if first == math.inf
         else f"a goal was sent {first - t:.1f} s before the first percentage",
         help=f"Before you send the goal, wait for the first {BATTERY} with a valid percentage: the battery may be low. "
-        "Ignored messages do not count.",
+        "A message whose percentage is invalid is not the first one.",
         at=t,
     )
     for low in lows:

@@ -9,7 +9,7 @@ from autograder.authoring import (
     BATTERY,
     Call,
     answered_within,
-    answers_from_memory,
+    answers_without_waiting,
     calls,
     differing_fields,
     ev,
@@ -32,7 +32,7 @@ def _knowledge(call: Call) -> str:
 
 
 answers_in_time = answered_within(2.0, SERVICE, clause=4)
-never_waits = answers_from_memory(SERVICE, _knowledge, clause=4)
+never_waits = answers_without_waiting(SERVICE, _knowledge, clause=4)
 
 
 @obligation(1, 3, of=calls(SERVICE), see="02_services#battery-rules")

@@ -11,7 +11,7 @@ from autograder.authoring import (
     Failure,
     Transcript,
     answered_within,
-    answers_from_memory,
+    answers_without_waiting,
     calls,
     ev,
     expect,
@@ -32,7 +32,7 @@ ARM_TOLERANCE = 0.01  # m; the servos of the robot's arm bring the hand to withi
 COMPUTE = "Compute and return the response: the callback must neither sleep nor wait for anything."
 
 answers_in_time = answered_within(2.0, SERVICE, clause=7, help=COMPUTE)
-never_waits = answers_from_memory(SERVICE, lambda call: "any request", clause=7, help=COMPUTE)
+never_waits = answers_without_waiting(SERVICE, lambda call: "any request", clause=7, help=COMPUTE)
 
 
 @obligation(7, of=calls(SERVICE), see="04_your_own_interfaces#cosine-why")

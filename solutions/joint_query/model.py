@@ -10,7 +10,7 @@ from autograder.authoring import (
     Call,
     Transcript,
     answered_within,
-    answers_from_memory,
+    answers_without_waiting,
     calls,
     ev,
     known_messages,
@@ -35,7 +35,7 @@ def _knowledge(call: Call) -> str:
 
 
 answers_in_time = answered_within(2.0, SERVICE, clause=6)
-never_waits = answers_from_memory(SERVICE, _knowledge, clause=6)
+never_waits = answers_without_waiting(SERVICE, _knowledge, clause=6)
 
 
 @obligation(1, 2, of=calls(SERVICE), see="01_robot_and_graph#joints-intro")

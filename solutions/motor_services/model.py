@@ -10,7 +10,7 @@ from autograder.authoring import (
     Failure,
     Transcript,
     answered_within,
-    answers_from_memory,
+    answers_without_waiting,
     calls,
     ev,
     lesson_on_subscribing,
@@ -294,7 +294,7 @@ def _knowledge(call: Call) -> str:
 
 
 status_in_time = answered_within(IN_TIME, STATUS, clause=5)
-status_from_memory = answers_from_memory(STATUS, _knowledge, clause=5)
+status_from_memory = answers_without_waiting(STATUS, _knowledge, clause=5)
 
 
 @obligation(5, of=calls(ENABLE))

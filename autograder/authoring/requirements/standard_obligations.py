@@ -1,7 +1,7 @@
 """Obligations for every service. Each takes one line in an exercise's model.
 
 answers_in_time = answered_within(2.0, "get_battery_status", clause=4)
-never_waits = answers_from_memory("get_battery_status", lambda call: "known" if … else "unknown", clause=4)
+never_waits = answers_without_waiting("get_battery_status", lambda call: "known" if … else "unknown", clause=4)
 """
 
 from __future__ import annotations
@@ -64,10 +64,13 @@ def enough_answers(answers: Sequence[Call], situation: Callable[[Call], str | No
     return {name: each for name, each in found.items() if len(each) >= MIN_ANSWERS}
 
 
-def answers_from_memory(
+def answers_without_waiting(
     service: str, situation: Callable[[Call], str], *, clause: int, help: str = FROM_MEMORY
 ) -> Obligation:
-    """Make the obligation that the callback never waits, in each `situation` with enough requests."""
+    """Return the obligation that a service answers at once, from values that it has already received.
+
+    `situation` names the situation of a call; one with fewer than MIN_ANSWERS answers is not judged.
+    """
 
     def never_waits(run: Transcript) -> str | None:
         judged = enough_answers(calls(service)(run), situation)

@@ -27,7 +27,7 @@ BEYOND_ANY_SCENARIO = 100.0  # s; no scenario lasts so long
 TRACEBACK = "Traceback (most recent call last)"
 # By the final status of a goal (None: it has not ended): what became of it, in words, and a pattern for the line that
 # must say so after Ctrl-C.
-BECAME = {
+OUTCOME_PATTERNS = {
     GoalStatus.STATUS_SUCCEEDED: ("it SUCCEEDED all the same", r"succe|arriv|reached|\bstatus\W+4\b"),
     GoalStatus.STATUS_CANCELED: ("it was CANCELED", r"cancel|\bstatus\W+5\b"),
     GoalStatus.STATUS_ABORTED: ("it was ABORTED all the same", r"abort|\bstatus\W+6\b"),
@@ -80,7 +80,7 @@ def require_its_line(client: ClientRun, allowed: list[End], exited: ev.NodeExite
     """Require one line that says how it ended: with status 0 and 4 on stdout, else on stderr."""
     finished = client.goal.finished if client.goal else None
     if any(end.name == "Ctrl-C" for end in allowed):
-        _require_what_became(client, exited)
+        _require_outcome_line(client, exited)
     elif exited.returncode == SUCCEEDED and finished:
         _require_final_pose(finished, require_ending_line(client.run, "SUCCEEDED", exited.t), exited.t)
     elif exited.returncode == CANCELED and finished:
@@ -185,7 +185,7 @@ def require_reason(client: ClientRun, allowed: list[End], exited: ev.NodeExited)
     )
 
 
-def _require_what_became(client: ClientRun, exited: ev.NodeExited) -> None:
+def _require_outcome_line(client: ClientRun, exited: ev.NodeExited) -> None:
     """Require a line on stdout that says what became of the goal after Ctrl-C: after its end, or the last line."""
     finished = client.goal.finished if client.goal else None
     status = finished.status if finished and client.result <= exited.t else None
@@ -193,10 +193,10 @@ def _require_what_became(client: ClientRun, exited: ev.NodeExited) -> None:
     lines = printed(client.run, "stdout", client.interrupted - 0.1)
     said = [line.text for line in lines if line.t >= since or line is lines[-1]]
     is_late = status and client.result > client.interrupted + MIN_WAIT_TIME
-    ways = [BECAME[each][1] for each in ((status, None) if is_late else (status,))]
+    ways = [OUTCOME_PATTERNS[each][1] for each in ((status, None) if is_late else (status,))]
     expect(
         any(re.search(way, line, re.IGNORECASE) for way in ways for line in said),
-        expected=f"a line on stdout at the end that says what became of the goal: {BECAME[status][0]}",
+        expected=f"a line on stdout at the end that says what became of the goal: {OUTCOME_PATTERNS[status][0]}",
         observed=f"the last line on stdout after Ctrl-C: {lines[-1].text if lines else 'none'}",
         help="Also after Ctrl-C, print a line with the goal's status when it has ended, or a line without one when you "
         "give up waiting.",

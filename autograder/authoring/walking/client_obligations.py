@@ -48,7 +48,7 @@ ON_CTRL_C = (
 )
 
 
-# -- what it sends ----------------------------------------------------------------------------------------------------
+# -- what a client sends ----------------------------------------------------------------------------------------------
 
 
 def sends_one_goal(client: ClientRun) -> str | None:
@@ -169,7 +169,7 @@ def asks_for_its_result(client: ClientRun) -> str | None:
     return f"kept for {kept_for:g} s"
 
 
-# -- how it follows its goal -------------------------------------------------------------------------------------------
+# -- how a client follows its goal ------------------------------------------------------------------------------------
 
 
 def follows_its_goal(client: ClientRun) -> str:
@@ -186,7 +186,7 @@ def follows(*clauses: int) -> Obligation:
     return obligation(*clauses, of=clients)(follows_its_goal)
 
 
-# -- what it prints on the way ----------------------------------------------------------------------------------------
+# -- what a client prints on the way ----------------------------------------------------------------------------------
 
 
 def prints_each_feedback(client: ClientRun, within: float = math.inf) -> str | None:
@@ -277,7 +277,7 @@ def says_what_was_refused(client: ClientRun) -> str | None:
     return f"refused with code {reply.return_code}"
 
 
-# -- before it starts -------------------------------------------------------------------------------------------------
+# -- command-line arguments, which the client checks before it creates a node -----------------------------------------
 
 
 def refuses_what_is_no_pose(run: Transcript) -> str:

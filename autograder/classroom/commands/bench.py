@@ -36,7 +36,9 @@ def bench(
     ] = None,
     runs: Annotated[
         int,
-        typer.Option(min=1, help="number of walks at each scale, arenas and gradings; the best run counts"),
+        typer.Option(
+            min=1, help="how often each walk, arena and grading is measured; the best result counts"
+        ),
     ] = 5,
     scale: Annotated[
         list[float] | None, typer.Option(help="clock scale in the table's rows on fairness (can be repeated)")

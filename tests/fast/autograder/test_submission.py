@@ -98,5 +98,7 @@ def test_a_reason_quotes_little_of_a_notebook(tmp_path):
 
 def test_a_file_that_cannot_be_a_program_is_refused_before_anything_runs(tmp_path):
     (tmp_path / "README.md").write_text("# Notes\n")
-    with pytest.raises(UnusableSubmission, match=r"README\.md is no program; give walk_to\.py or walk_to\.ipynb"):
+    with pytest.raises(
+        UnusableSubmission, match=r"README\.md is no program; give walk_to\.py or walk_to\.ipynb"
+    ):
         read_submission(tmp_path / "README.md", "walk_to")

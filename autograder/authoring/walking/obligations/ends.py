@@ -76,14 +76,17 @@ def gives_way(goal: Goal) -> str | None:
     return f"by {len(newer)} newer"
 
 
-def require_preempted(goal: Goal, came: float, help: str) -> None:
-    """Require that a goal was PREEMPTED by one sent at `came` (s); `help` is for a goal that did not give way."""
+def require_preempted(goal: Goal, newer_sent: float, help: str) -> None:
+    """Require that a goal ended as PREEMPTED soon after a newer goal was sent, at `newer_sent` (s).
+
+    `help` is the next step for a goal that continued.
+    """
     end = goal.require_result(ABORTED, help=help)
     reports.require_error_code(goal, "PREEMPTED", because="a new goal has taken its place", help=help)
     expect(
-        end.t <= came + PREEMPTION_TIME,
+        end.t <= newer_sent + PREEMPTION_TIME,
         expected=f"the old goal to end within {PREEMPTION_TIME:g} s of the new one",
-        observed=f"it ended {end.t - came:.1f} s after it",
+        observed=f"it ended {end.t - newer_sent:.1f} s after it",
         help=help,
         at=end.t,
     )

@@ -5,31 +5,16 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from rich.console import Console
 from rich.text import Text
 
 from autograder.engine.hand_in import work_in
 from autograder.engine.submission import UnusableSubmission, read_submission
 from ros_runtime.project import COURSE
 
-# What JupyterLab's own button does; other editors ignore it.
-_SAVE = "document.querySelector('.jp-NotebookPanel:not(.lm-mod-hidden) [data-command=\"docmanager:save\"]')?.click()"
 _HIDDEN = re.compile(r"Hidden check \d+ \((\d+) points?\)")
 
 
-def save_notebook() -> None:
-    """Have JupyterLab save the notebook that is shown, while its cell runs on."""
-    if Console().is_jupyter:
-        from IPython.display import Javascript, display  # not needed in a terminal
-
-        shown = display(Javascript(_SAVE), display_id=True)
-        if shown is not None:
-            shown.update(
-                {"text/plain": ""}, raw=True
-            )  # the saved notebook would do it again when it is opened
-
-
-def hidden_checks(exercise: str) -> str:
+def hidden_checks_notice(exercise: str) -> str:
     """Return how many hidden checks there are, and their points, as the exercise's notebook lists them."""
     notebook = COURSE / "exercises" / exercise / f"{exercise}.ipynb"
     points = (
@@ -43,7 +28,7 @@ def hidden_checks(exercise: str) -> str:
     )
 
 
-def handed_in_now(exercise: str, program: str, folder: Path = Path()) -> Text:
+def saved_work_notice(exercise: str, program: str, folder: Path = Path()) -> Text:
     """Return whether the work that is saved in a folder is the program of this fingerprint, and what to do."""
     found = work_in(folder, exercise, depth=0)
     if not found:
