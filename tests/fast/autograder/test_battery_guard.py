@@ -253,7 +253,11 @@ def test_a_correct_run_passes(check, record):
         ("waits_no_longer_than_5_s", ASKED, "after a cancel, give the wait for the result a timeout"),
         ("waits_no_longer_than_5_s", [*ASKED, *finished(3.6, CANCELED), *canceled(16.0)], "a timeout of 5 s"),
         ("waits_no_longer_than_5_s", [*INTERRUPTED, *ended(17.0, 4, "no end")], "a timeout of 5 s"),
-        ("waits_for_a_percentage", [*NONSENSE, *goal(1.0), *ended(5.7, 1)], "Ignored messages do not count"),
+        (
+            "waits_for_a_percentage",
+            [*NONSENSE, *goal(1.0), *ended(5.7, 1)],
+            "A message whose percentage is invalid is not the first one",
+        ),
         ("gives_up_in_silence", [*SILENT, *ended(7.8, 1, errors=["silence"])], "before you give up"),
         (
             "tells_a_cancel_by_another",
