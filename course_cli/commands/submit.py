@@ -14,6 +14,7 @@ from rich.text import Text
 
 from autograder.engine.exercise import essay_names, file_names
 from autograder.engine.submission import Submission, read_submission
+from autograder.hand_in_notice import hidden_checks_notice
 from course_cli.options import CourseOption
 from course_cli.own_work import own_work
 from ros_runtime.self_checks import last_checks
