@@ -34,7 +34,7 @@ say() { echo "course: $*" >&2; }
 new_environment() {
     find_python || return 1
     ensure_system_packages "$(debian_name)-venv" "$(debian_name)-dev"
-    say "making the environment in ${toolkit}.venv with $("$python" --version) (1 to 3 minutes, once; log: ${toolkit}build/setup.log)"
+    say "making the environment in ${toolkit}.venv with $("$python" --version) (1.3 GB; once, about a minute, longer on a busy machine; log: ${toolkit}build/setup.log)"
     rm -rf "$venv"
     { logged "$python" -m venv "$venv" && install_everything; } || explain_failure
 }

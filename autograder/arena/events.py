@@ -158,6 +158,13 @@ class Mark(Event):
 
 
 @dataclass(frozen=True, kw_only=True)
+class StepsPlanned(Event):
+    """The scenario's steps in words, in their order."""
+
+    words: list[str]
+
+
+@dataclass(frozen=True, kw_only=True)
 class PhaseEnded(Event):
     """What a phase of the arena cost, where that is measured: wall and processor time of all its processes (s)."""
 

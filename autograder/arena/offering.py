@@ -18,6 +18,7 @@ from autograder.arena.scripted_action import GoalScript, ScriptedAction
 from autograder.arena.scripted_service import Reply, ScriptedService
 from autograder.arena.student import Student
 from autograder.arena.topics import ScriptedTopic
+from autograder.arena.units import Seconds
 
 FLOOD = 50  # messages within QUIET_TIME; no correct node sends so many
 QUIET_TIME = 0.25  # s on the arena's clock
@@ -44,7 +45,7 @@ class Offering:
 
     # -- waiting ------------------------------------------------------------------------------------------------------
 
-    def wait(self, duration: float) -> None:
+    def wait(self, duration: Seconds) -> None:
         """Let time pass."""
         deadline = time.monotonic() + duration
         while (left := deadline - time.monotonic()) > 0:
@@ -86,6 +87,10 @@ class Offering:
     def mark(self, name: str) -> None:
         """Name this moment for the checks."""
         self._log.append(ev.Mark(name=name))
+
+    def plan(self, steps: list[str]) -> None:
+        """Record the steps that follow, in words, for the failures of checks."""
+        self._log.append(ev.StepsPlanned(words=steps))
 
     # -- offering -----------------------------------------------------------------------------------------------------
 

@@ -9,6 +9,7 @@ from autograder.arena.client_stage import ClientStage
 from autograder.arena.poses import pose_at
 from autograder.arena.scripted_action import CancelScript, GoalScript, ScriptedAction
 from autograder.arena.sequence import Steps, carry_out
+from autograder.arena.units import Seconds
 from humanoid_interfaces.action import WalkTo
 
 ON_THE_WAY = (0.4, 0.1, 0.2)  # m, m, rad
@@ -48,7 +49,7 @@ class World:
             "await_goal": lambda: self._await("goals"),
             "await_answer": lambda: self._await("answers"),
             "await_cancel": lambda: self._await("cancels"),
-            "wait": lambda duration: stage.wait_until(stage.has_ended, duration) or None,
+            "wait": self._wait,
             "type": lambda line: self._do(stage.type_line, line),
             "end_input": lambda: self._do(stage.end_input),
             "press_ctrl_c": lambda: self._do(stage.interrupt_program),
@@ -69,6 +70,9 @@ class World:
 
         self._stage.wait_until(lambda: has_come() or self._stage.has_ended(), GOAL_TIMEOUT)
         return has_come() > 0
+
+    def _wait(self, duration: Seconds) -> None:
+        self._stage.wait_until(self._stage.has_ended, duration)
 
     def _do(self, act: Callable[..., object], *arguments: Any) -> None:
         if not self._stage.has_ended():

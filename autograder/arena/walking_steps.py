@@ -16,6 +16,7 @@ from geometry_msgs.msg import PoseStamped, Twist
 from autograder.arena.poses import pose_at
 from autograder.arena.sequence import Steps, carry_out
 from autograder.arena.stage import STRANGER, ActionClient, Goal, Stage
+from autograder.arena.units import Metres, Radians, Seconds
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.recorded_client.goal import RESULT_TIMEOUT
 
@@ -77,13 +78,13 @@ class _Walker:
             "interrupt": self._stage.interrupt_node,
         }
 
-    # -- goals: m, m, rad in odom, and m/s or m ------------------------------------------------------------------------
+    # -- goals: poses in odom, and a limit in m/s or m -----------------------------------------------------------------
 
-    def go(self, name: str, x: float, y: float, yaw: float, limit: float = 0.0) -> None:
+    def go(self, name: str, x: Metres, y: Metres, yaw: Radians, limit: float = 0.0) -> None:
         """Send a goal and wait for its answer."""
         self._send_pose(name, pose_at(x, y, yaw), limit).wait_for_answer()
 
-    def go_on(self, name: str, ahead: float, left: float, turn: float, limit: float = 0.0) -> None:
+    def go_on(self, name: str, ahead: Metres, left: Metres, turn: Radians, limit: float = 0.0) -> None:
         """Send a goal relative to the robot's present pose (m, m, rad), and wait for the answer."""
         robot = self._stage.robot.state
         x = robot.x + ahead * math.cos(robot.yaw) - left * math.sin(robot.yaw)
@@ -96,7 +97,7 @@ class _Walker:
         for goal in sent:
             goal.wait_for_answer()
 
-    def ask(self, name: str, field: str, value: Any, ahead: float = 1.0) -> None:
+    def ask(self, name: str, field: str, value: Any, ahead: Metres = 1.0) -> None:
         """Send a goal `ahead` m in front of the origin with `field`, such as 'pose.position.x', set to `value`."""
         pose = pose_at(ahead, 0.0, 0.0)
         goal = self._make_goal(pose, 0.0)
@@ -104,7 +105,7 @@ class _Walker:
         setattr(reduce(getattr, path, goal if hasattr(goal, field) else pose), last, value)
         self._send(name, pose, goal).wait_for_answer()
 
-    def arrive(self, name: str, patience: float = RESULT_TIMEOUT) -> None:
+    def arrive(self, name: str, patience: Seconds = RESULT_TIMEOUT) -> None:
         """Wait `patience` s for the end of a goal, or END_TIMEOUT if an earlier goal has missed its timeout."""
         goal = self._goals[name]
         if goal.accepted and not goal.wait_for_result(END_TIMEOUT if self._a_goal_timed_out else patience):
@@ -132,7 +133,7 @@ class _Walker:
         for cancel in (self._goals[name].cancel(), self._goals[name].cancel()):
             cancel.wait()
 
-    def cancel_at_once(self, name: str, x: float, y: float, yaw: float, limit: float = 0.0) -> None:
+    def cancel_at_once(self, name: str, x: Metres, y: Metres, yaw: Radians, limit: float = 0.0) -> None:
         """Send a goal and request to cancel it before it is answered; repeat if the cancel arrived before the goal."""
         goal = self._send_pose(name, pose_at(x, y, yaw), limit)
         cancel = goal.cancel()
@@ -143,12 +144,12 @@ class _Walker:
 
     # -- the robot ----------------------------------------------------------------------------------------------------
 
-    def walk_for(self, duration: float) -> None:
+    def walk_for(self, duration: Seconds) -> None:
         """Wait until the robot walks, then for `duration` s."""
         self._stage.robot.wait_for(lambda robot: robot.mode == RobotState.WALKING, WALK_START_TIMEOUT)
         self._stage.wait(duration)
 
-    def come_near(self, name: str, distance: float) -> None:
+    def come_near(self, name: str, distance: Metres) -> None:
         """Wait until the robot is within a distance (m) of where a goal sends it."""
         aim = self._poses[name].pose.position
         self._stage.robot.wait_for(

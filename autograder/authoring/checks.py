@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
-from autograder.authoring.sequence import steps_until
+from autograder.authoring.sequence import in_words, steps_until
 
 if TYPE_CHECKING:
     from autograder.authoring.obligation import Obligation
@@ -139,7 +139,7 @@ class Check:
             try:
                 self.judge(transcript)
             except Failure as failure:
-                failure.steps = steps_until(transcript, failure.at)
+                failure.steps = in_words(transcript, steps_until(transcript, failure.at))
                 raise
 
 

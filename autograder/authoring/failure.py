@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 
 class Failure(Exception):
@@ -16,10 +15,10 @@ class Failure(Exception):
         at: when it happened, s on the arena's clock.
         see: the lesson to read, such as "02_services#m9-why"; by default that of the check.
 
-    If the scenario is a sequence, the check sets `steps` to the steps that led to the failure.
+    If the scenario is a sequence, the check sets `steps` to the steps that led to the failure, in words.
     """
 
-    steps: Sequence[Sequence[Any]] = ()
+    steps: Sequence[str] = ()
 
     def __init__(
         self, *, expected: str, observed: str, help: str, at: float | None = None, see: str = ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, MutableSequence, Sequence
+from collections.abc import MutableSequence, Sequence
 from random import Random
 from typing import Any
 
@@ -32,7 +32,7 @@ def require_all_steps(run: Transcript) -> None:
     """Require that every step was carried out, if the scenario is a sequence."""
     steps = run.params.get(STEPS, ())
     if (done := len(_ends(run))) < len(steps):
-        step = in_words(steps[done : done + 1])
+        step = in_words(run, steps[: done + 1])[-1]
         raise Missing(
             run,
             expected=f"a program that gets as far as step {done + 1} of the scenario, “{step}”",
@@ -46,21 +46,10 @@ def steps_until(run: Transcript, t: float | None) -> Sequence[Any]:
     return steps if t is None else steps[: 1 + sum(end < t for end in _ends(run))]
 
 
-def in_words(steps: Sequence[Sequence[Any]]) -> str:
-    """Return steps as a readable line: 'ask 1, set battery 0.35, ask 1'."""
-    return ", ".join(
-        " ".join([verb.replace("_", " "), *map(_shown, arguments)]) for verb, *arguments in steps
-    )
-
-
-def _shown(argument: Any) -> str:
-    if isinstance(argument, float):
-        return f"{argument:g}"
-    if isinstance(argument, Mapping):
-        return ", ".join(f"{name} {_shown(value)}" for name, value in argument.items())
-    if isinstance(argument, list | tuple):
-        return f"({', '.join(map(_shown, argument))})"
-    return str(argument)
+def in_words(run: Transcript, steps: Sequence[Any]) -> list[str]:
+    """Return a run's first steps to read, as the arena worded them; as data if it did not get so far."""
+    planned = run.first(ev.StepsPlanned)
+    return planned.words[: len(steps)] if planned else [" ".join(map(str, step)) for step in steps]
 
 
 def _ends(run: Transcript) -> list[float]:

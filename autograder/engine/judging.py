@@ -13,7 +13,6 @@ from autograder.authoring.diagnosis.readiness import require_ready, require_star
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import CannotBeJudged, Failure, NoOccasion
-from autograder.authoring.sequence import in_words
 from autograder.engine.bounds import require_bounded
 from autograder.engine.completeness import require_whole
 from autograder.engine.verdict import CheckStatus, CheckVerdict
@@ -89,7 +88,7 @@ def failed_scenarios(check: Check, transcripts: Sequence[Transcript]) -> list[Sc
 
 def _with_steps(failure: Failure) -> str:
     """Return what was observed and, in a scenario that is a sequence, the steps that led to it."""
-    return f"{failure.observed}; steps: {in_words(failure.steps)}" if failure.steps else failure.observed
+    return f"{failure.observed}; steps: {', '.join(failure.steps)}" if failure.steps else failure.observed
 
 
 def _with_lesson(help: str, see: str) -> str:

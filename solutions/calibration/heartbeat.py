@@ -89,6 +89,12 @@ def _advice_on_the_gap(run: Transcript, during: bool) -> str:
             f"The timer's callback could not run: another callback blocked its thread or callback group in {place}. "
             "Use await there."
         )
+    if run.first(ev.NodeStack):
+        return (
+            "No callback blocked a thread: one awaits something that never completes, and keeps its callback group. "
+            "Give the heartbeat's timer, and the client or timer that completes the await, a ReentrantCallbackGroup or "
+            "groups of their own."
+        )
     return (
         "The timer's callback cannot run while the callback of calibrate_imu blocks: make that async, and await "
         "futures in it."

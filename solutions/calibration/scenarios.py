@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import wraps
 
 from geometry_msgs.msg import Vector3Stamped
 from std_msgs.msg import Empty
@@ -57,6 +58,7 @@ def in_order(stage: Stage, steps: Steps, hears_bias: bool = True, interrupt: boo
         stage.wait_until(lambda: late.messages, MESSAGE_TIMEOUT)
 
     def command(give: Callable[..., None]) -> Callable[..., None]:
+        @wraps(give)
         def until_it_has_taken_effect(*arguments: object) -> None:
             give(*arguments)
             robot.wait_for_commands()

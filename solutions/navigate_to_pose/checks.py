@@ -67,7 +67,11 @@ once_it_arrives = partial(check_of, needs=arrives)
 faces_its_way = GOING(model.faces_its_way, needs=arrives)
 feedback_keeps_its_rate = GOING(model.feedback_at_5_hz, needs=accepts_a_goal)
 ARRIVES_WITH_FEEDBACK = [arrives, feedback_keeps_its_rate]
-feedback_is_true = GOING(model.feedback_is_true, needs=feedback_keeps_its_rate)
+feedback_is_true = GOING(
+    model.feedback_is_true,
+    title="Pose and distance in the feedback are the robot's, for this goal",
+    needs=feedback_keeps_its_rate,
+)
 names_its_phases = GOING(model.names_its_phases, needs=[faces_its_way, *ARRIVES_WITH_FEEDBACK])
 tells_its_time = check_of(model.tells_its_time, on=[GO, PREEMPT], needs=ARRIVES_WITH_FEEDBACK)
 estimates_the_time = GOING(model.estimates_the_time, needs=ARRIVES_WITH_FEEDBACK)

@@ -56,8 +56,8 @@ _OF_EACH_GOAL = "Start the sum at 0 for every goal: keep it in execute, not in t
 def _tolerances(goal: Goal) -> str | None:
     """It rejects a tolerance that is NaN, or below 0.05 m but not 0."""
     tolerance = goal.request.tolerance
-    if abs(tolerance - MIN_TOLERANCE) < 1e-6:
-        return None  # rounded to a float32, 0.05 may be a little smaller
+    if abs(tolerance - MIN_TOLERANCE) < 1e-6 or tolerance == math.inf:
+        return None  # rounded to a float32, 0.05 may be a little smaller; infinity is left open
     is_valid = tolerance == 0.0 or tolerance >= MIN_TOLERANCE
     return "" if is_valid else f"a tolerance of {tolerance:g} m is not allowed"
 

@@ -6,6 +6,7 @@ import math
 
 from autograder.arena.sequence import Steps
 from autograder.arena.stage import Stage
+from autograder.arena.units import Metres, Seconds
 from autograder.arena.walking_steps import APPROACH_TIMEOUT, walk_in_order
 from humanoid_interfaces.action import NavigateToPose
 
@@ -17,11 +18,11 @@ def in_order(stage: Stage, steps: Steps) -> None:
     """Send goals, cancel them, control the robot as an operator, disturb it and wait, in the order of the steps."""
     robot = stage.robot
 
-    def get_away(distance: float) -> None:
+    def get_away(distance: Metres) -> None:
         """Wait until the robot is at a distance (m) from the origin."""
         robot.wait_for(lambda state: math.hypot(state.x, state.y) > distance, APPROACH_TIMEOUT)
 
-    def lead_astray(back: float, side: float) -> None:
+    def lead_astray(back: Seconds, side: float) -> None:
         """As an operator walk the robot back for `back` s, turn it to a side (1 left, -1 right), then release it."""
         robot.take_over((BACKWARD, 0.0, 0.0))
         stage.wait(back)

@@ -10,6 +10,7 @@ from geometry_msgs.msg import PoseStamped
 from autograder.arena import events as ev
 from autograder.arena.sequence import Steps, carry_out
 from autograder.arena.stage import Goal, Stage
+from autograder.arena.units import Metres
 from humanoid_interfaces.action import PickAndPlace
 
 Place = Sequence[float]  # x, y m in odom; the height is that of a cup on the table
@@ -111,7 +112,7 @@ class _Table:
             self._stage.robot.move_object("cup", ASIDE)
         return not self._timed_out
 
-    def put_cup(self, x: float, y: float) -> None:
+    def put_cup(self, x: Metres, y: Metres) -> None:
         """Put the cup at a place (m in odom) on the table."""
         self._stage.robot.move_object("cup", (x, y, ON_THE_TABLE))
         self._stage.robot.wait_for_commands()

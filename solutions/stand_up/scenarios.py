@@ -14,6 +14,7 @@ from rclpy.clock import Clock
 
 from autograder.arena.sequence import Steps, carry_out
 from autograder.arena.stage import ActionClient, Goal, Stage
+from autograder.arena.units import Metres, Seconds
 from humanoid_interfaces.action import StandUp
 from humanoid_interfaces.msg import RobotState
 
@@ -43,7 +44,7 @@ def in_order(stage: Stage, steps: Steps) -> None:
         for name in names:
             sent[name].wait_for_answer()
 
-    def crouch(height: float) -> None:
+    def crouch(height: Metres) -> None:
         robot.take_over(NO_VELOCITY)  # so that the server's commands do not interfere
         robot.move_body(-0.1)
         robot.wait_for(lambda state: state.z < height, HEIGHT_TIMEOUT)
@@ -55,7 +56,7 @@ def in_order(stage: Stage, steps: Steps) -> None:
         robot.take_over(NO_VELOCITY) if is_held else robot.give_back()
         robot.wait_for_commands()
 
-    def lean_on(force: float, duration: float) -> None:
+    def lean_on(force: float, duration: Seconds) -> None:
         robot.lean_on([0.0, force, 0.0], duration)
         robot.wait_for_feet(lambda left, right: min(left, right) < UNEVEN * max(left, right), UNEVEN_TIMEOUT)
 

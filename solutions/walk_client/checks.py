@@ -5,12 +5,13 @@ from __future__ import annotations
 from autograder.authoring import check_of
 from autograder.authoring.walking import every_client
 from autograder.authoring.walking.client_obligations import follows
-from autograder.authoring.walking.client_scenarios import GOOD, WRONG_ARGUMENTS, walk
+from autograder.authoring.walking.client_scenarios import GOOD, ON_AND_ON, WRONG_ARGUMENTS, typed, walk
 
 from . import model
 
 WRONG = [walk({}, arguments=arguments) for arguments in WRONG_ARGUMENTS]
 REJECTING = walk({"accepted": False})
+NEVER_CANCELED = walk({**ON_AND_ON, "cancel": {"ends_after": None}}, *typed(), ["press_ctrl_c"])
 
 sends_the_goal = check_of(model.sends_one_goal, points=2, on=GOOD)
 
@@ -42,5 +43,5 @@ tells_an_abort = every_client.check("tells_an_abort", 3, 9, points=2, needs=says
 gives_up_in_silence = every_client.check("gives_up_in_silence", 7, 9, points=2, needs=says_how_it_succeeded)
 
 ctrl_c_cancels_the_goal = every_client.check(
-    "ctrl_c_cancels_the_goal", 10, points=2, needs=says_how_it_succeeded
+    "ctrl_c_cancels_the_goal", 10, points=2, needs=says_how_it_succeeded, also_on=[NEVER_CANCELED]
 )

@@ -43,7 +43,6 @@ FALL = in_order(
 
 REJECT = "06_walk_to_a_pose#reject-task"
 FRAMES = "01_robot_and_graph#frames-intro"
-VELOCITY = "06_walk_to_a_pose#show-intro"
 
 server_appears = standard.server_appears(
     "the action walk_to", on=INTERRUPT, clauses=[13], see="06_walk_to_a_pose#small-intro"

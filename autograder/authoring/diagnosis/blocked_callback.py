@@ -9,13 +9,15 @@ from autograder.authoring.evidence.record import Record
 
 SPIN_LESSON = "02_services#first-intro"
 DEADLOCK_LESSON = "02_services#m4-why"
+AWAIT_LESSON = "05_executors#report-why"
 _WAITS = (
     "A callback may not wait, sleep or call another service while the node has only one thread: no other callback "
     "runs meanwhile."
 )
 _AWAITS = (
-    "No thread was blocked, so a callback awaits something that never completes. A node's default callback group runs "
-    "one callback at a time: give a client inside a callback a group of its own, and the await a timeout."
+    "No thread was blocked, so a callback awaits something that never completes. Meanwhile it keeps its callback "
+    "group: give the client or timer that completes the await a ReentrantCallbackGroup or a group of its own, "
+    "and the await a timeout."
 )
 
 
@@ -25,4 +27,4 @@ def remedy_for_no_answer(run: Record) -> Remedy:
         return Remedy(f"It was blocked in {place}. {_WAITS}", DEADLOCK_LESSON)
     if idle := why_nobody_serves(run):
         return Remedy(idle, SPIN_LESSON)
-    return Remedy(_WAITS if run.first(ev.NodeStack) is None else _AWAITS, DEADLOCK_LESSON)
+    return Remedy(_AWAITS, AWAIT_LESSON) if run.first(ev.NodeStack) else Remedy(_WAITS, DEADLOCK_LESSON)

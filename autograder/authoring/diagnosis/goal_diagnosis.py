@@ -37,7 +37,8 @@ _ABORT = "Call goal_handle.abort(), with the reason in result.error_code, when t
 
 def why_it_ended_so(goal: Goal, wanted: int) -> str:
     """Return what to do about a goal that ended with another status than `wanted`."""
-    ended = goal.status or GoalStatus.UNKNOWN
+    last = goal.result or final_status(goal)
+    ended = last.status if last else GoalStatus.UNKNOWN
     if ended == GoalStatus.ABORTED and (unmeant := why_rclpy_aborted(goal)):
         return unmeant
     code = error_name(goal)
@@ -53,6 +54,12 @@ def why_it_ended_so(goal: Goal, wanted: int) -> str:
     if ended in _CALLS:
         return f"execute called goal_handle.{_CALLS[ended]}(): check the condition before this call."
     return "Check which terminal call (succeed, canceled, abort) execute makes on this path."
+
+
+def final_status(goal: Goal) -> ev.StatusSeen | None:
+    """Return when the goal was last seen in a final status, with or without a result; None: it never was."""
+    last = goal.statuses[-1] if goal.statuses else None
+    return last if last and last.status in _CALLS else None
 
 
 def error_name(goal: Goal) -> str:

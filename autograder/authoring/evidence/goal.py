@@ -10,6 +10,7 @@ from action_msgs.srv import CancelGoal
 
 from autograder.authoring.diagnosis.goal_diagnosis import (
     STARVED_LESSON,
+    final_status,
     lesson_on_the_end,
     went_on,
     why_it_ended_so,
@@ -168,6 +169,8 @@ class Goal:
         """
         if self.result is None:
             require_alive(self.run)
+        last = self.result or final_status(self)
+        if last is None or (self.result is None and last.status == status):
             observed, advice = why_no_result(self)
             raise Failure(
                 expected=f"a result with status {name_of(GoalStatus, status)}",
@@ -176,15 +179,16 @@ class Goal:
                 at=self.run.end,
                 see=STARVED_LESSON if why_starved(self) else "",
             )
-        ended = self.result.status
+        ended = last.status
         expect(
             ended == status,
             expected=f"status {name_of(GoalStatus, status)}",
             observed=f"status {name_of(GoalStatus, ended)}",
             help=help if help and ended == SUCCEEDED else why_it_ended_so(self, status),
-            at=self.result.t,
+            at=last.t,
             see=lesson_on_the_end(self),
         )
+        assert self.result
         return self.result
 
     def require_canceled(self, request: Cancel | None = None) -> None:

@@ -39,8 +39,9 @@ def check(
     *clauses: int,
     points: int = 1,
     needs: Check | Sequence[Check] = (),
+    also_on: Sequence[Scenario] = (),
     among: Mapping[str, tuple[Scenario, str, str]] = CHECKS,
 ) -> Check:
-    """Return the check of this name."""
+    """Return the check of this name, on its own scenario and the further ones."""
     on, title, see = among[id]
-    return check_of(follows(*clauses), title=title, points=points, on=on, needs=needs, see=see)
+    return check_of(follows(*clauses), title=title, points=points, on=[on, *also_on], needs=needs, see=see)

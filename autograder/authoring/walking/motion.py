@@ -69,8 +69,8 @@ def require_limited_velocity(goal: Goal) -> None:
     speed = math.hypot(arrival.x - start.x, arrival.y - start.y) / max(arrival.t - start.t, 1e-6)
     expect(
         speed <= SPEED_SLACK * limit,
-        expected=f"at most {limit:.2f} m/s on the way, as max_velocity of the goal asks (10 % more are forgiven)",
-        observed=f"{speed:.2f} m/s on average from the start to the arrival",
+        expected=f"at most {SPEED_SLACK * limit:.3f} m/s on the way: max_velocity {limit:.3f} m/s, and 10 % more",
+        observed=f"{speed:.3f} m/s on average from the start to the arrival",
         help="Read goal_handle.request.max_velocity, and scale linear.x and linear.y together so that math.hypot(x, y) "
         "is at most that: limited one by one, they add up to 1.4 times as much on a diagonal.",
         at=arrival.t,

@@ -187,6 +187,14 @@ def test_a_gap_is_explained_by_the_request_that_was_being_processed(
     assert next_step in failure_of(MODEL.beats.judge, calibration(GOOD, *beats(silence))).help
 
 
+def test_a_gap_without_a_blocked_callback_is_explained_by_the_group() -> None:
+    stack = ev.NodeStack(
+        t=END, lines=["Current thread (most recent call first):", '  File "executors.py", line 9 in spin']
+    )
+    run = calibration(GOOD, stack, *beats((SENT + 0.5, ANSWERED - 0.5)))
+    assert "ReentrantCallbackGroup" in failure_of(MODEL.beats.judge, run).help
+
+
 def test_a_number_of_thousands_of_digits_is_not_read_as_a_count() -> None:
     run = calibration("mean 0.010 -0.008 0.012 of " + "9" * 5000)
     assert "Write the number of averaged samples" in failure_of(MODEL.tells_the_count.judge, run).help

@@ -90,7 +90,7 @@ def test_a_walk_is_as_fast_as_it_may_be():
     ("velocity", "advice"), [(0.14, "linear.x and linear.y together"), (0.35, "Read goal_handle")]
 )
 def test_a_walk_that_is_too_fast_is_reported_with_the_excess(velocity, advice):
-    with pytest.raises(Failure, match=f"{velocity:.2f} m/s") as failed:
+    with pytest.raises(Failure, match=f"{velocity:.3f} m/s") as failed:
         require_limited_velocity(walked(straight(velocity), 12.0).goal("walk"))
     assert advice in failed.value.help
 

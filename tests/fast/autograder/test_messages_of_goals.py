@@ -132,6 +132,13 @@ def test_a_check_says_itself_what_a_goal_that_went_on_has_missed() -> None:
     assert "goal_handle.abort()" in failure_of(canceled, ABORTED, "It fell.").help
 
 
+def test_a_goal_with_another_final_status_and_no_result_is_reported_by_that_status() -> None:
+    arrived = goal_run(status(GoalStatus.SUCCEEDED), NO_RESULT)
+    failure = failure_of(arrived.require_result, ABORTED, "The old goal went on.")
+    assert (failure.expected, failure.observed) == ("status ABORTED", "status SUCCEEDED")
+    assert failure.help == "The old goal went on."
+
+
 def test_a_cancel_after_an_early_end_is_about_that_end() -> None:
     events = [
         *RAISED,
