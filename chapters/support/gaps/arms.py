@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -43,11 +44,22 @@ def merges_two_plans() -> str:
             _is_close(got, wanted),
             seen=f"merged(left, right, {now}) returned {got!r}, for left {left} and right {right}",
             expected=repr(wanted),
-            next="the times of a trajectory must rise: take the moments in order with sorted()"
-            if sorted(got) != list(got)
-            else reason,
+            next=_advice_on_points(got, wanted, now) or reason,
         )
     return f"the right points at {len(situations)} moments, and no point of the past"
+
+
+def _advice_on_points(got: Mapping[float, Any], wanted: Mapping[float, Any], now: float) -> str:
+    """Return what to do about points that are wrong in another way than the situation's advice says; else ""."""
+    if sorted(got) != list(got):
+        return "the times of a trajectory must rise: take the moments in order with sorted()"
+    has_its_times = len(got) == len(wanted) and np.allclose(list(got), list(wanted))
+    if has_its_times and now > 0 and all(np.size(positions) == 2 for positions in got.values()):
+        return (
+            "the times are right; the positions are those of another moment. The plans have their own clock: "
+            "place_at(plan, moment). Only the key counts from `now`"
+        )
+    return ""
 
 
 def _is_close(got: Mapping[float, Sequence[float]], wanted: Mapping[float, Sequence[float]]) -> bool:

@@ -13,9 +13,14 @@ from lab.client.outcomes import Outcome
 from lab.client.waiting import becomes_true
 from lab.learning.gap import Gap, expect, not_yet
 from lab.learning.gap_check_helpers import last_error, read_program, run_student_code
+from lab.running.programs import run_program
 from lab.running.student_nodes import StudentNode, run_node, stop_nodes
 
 LEGS_PROGRAM = f"{harness.__path__[0]}/scripted_legs.py"
+LASTING_CHILD_PROGRAM = f"{harness.__path__[0]}/lasting_child.py"
+TRIAL_TIMEOUT = 30.0  # s; correct lines need 2 s
+MAX_ROUNDS_PER_SECOND = 50  # the task asks for 20
+MAX_CALLS_OF_DONE = 4  # in one round, by sound lines
 NO_RESPONSE = "has not accepted the goal"  # errand.py's error_msg when the child sent no goal response
 MAX_ERRANDS = 4  # goals sent until parent and child have discovered each other
 FIRST_FEEDBACK_TIMEOUT = 6.0  # s until the errand gives feedback or ends
@@ -29,7 +34,7 @@ LONG_WORK_TIME = 15.0  # s, for a child that is stopped before it finishes
 
 
 def waits_for_the_end_of_its_child() -> str:
-    """Let one errand succeed, and cancel another one."""
+    """Let one errand succeed, cancel another one, and give a third one a reason to stop without a cancel."""
     parent, legs = _start("careful_errand.py", "steady")
     _require_success(parent, legs)
     goal = _under_way(parent, LONG_WORK_TIME)
@@ -77,7 +82,45 @@ def waits_for_the_end_of_its_child() -> str:
         next="remember that you have sent one: go_ahead rejects every further cancel request",
     )
     took = time.monotonic() - cancelled_at
+    _require_every_reason_and_pauses()
     return f"it succeeded without a cancel; after a cancel it waited {took:.1f} s until its child had ended"
+
+
+def _require_every_reason_and_pauses() -> None:
+    """Require that should_stop() alone decides on the cancel request, and that the loop sleeps between two rounds."""
+    stop_nodes()
+    trial = run_program(LASTING_CHILD_PROGRAM, timeout=TRIAL_TIMEOUT)
+    printed = [line for line in trial.stdout.splitlines() if line.startswith("{")]
+    error = last_error(trial.stderr, "careful_errand.py")
+    expect(
+        printed and not error,
+        seen=f"wait_for_end() raised {error}" if error else "the trial of wait_for_end() printed nothing",
+        expected="no exception",
+        next="fix the error that is named here" if error else "run the cell again",
+    )
+    saw = json.loads(printed[0])
+    expect(
+        saw["cancels"],
+        seen="self.should_stop(goal_handle) became true without a cancel of the goal, and go_ahead received no cancel "
+        "request",
+        expected="one cancel request to go_ahead",
+        next="check self.should_stop(goal_handle), not goal_handle.is_cancel_requested: a newer goal or a low battery "
+        "is a reason to stop, too",
+    )
+    expect(
+        saw["cancels"] == ["cancel_goal_async"],
+        seen=f"the calls: {', '.join(f'{method}()' for method in saw['cancels'])}",
+        expected="one call of cancel_goal_async()",
+        next="call child.cancel_goal_async(): cancel_goal() blocks until a response arrives, and a dead child sends "
+        "none",
+    )
+    rate = max(saw["calls_of_should_stop"], saw["calls_of_done"] / MAX_CALLS_OF_DONE) / saw["seconds"]
+    expect(
+        rate <= MAX_ROUNDS_PER_SECOND,
+        seen=f"the loop ran {rate:.0f} rounds a second",
+        expected="about 20 rounds a second",
+        next="call time.sleep(TICK) in each round: a loop without it takes a processor from all other threads",
+    )
 
 
 def _require_success(parent: StudentNode, legs: StudentNode) -> None:
@@ -112,9 +155,12 @@ def _require_success(parent: StudentNode, legs: StudentNode) -> None:
 
 def gives_up_a_silent_child() -> str:
     """Run an errand with a slow child, with one that stops giving feedback, and with one that is killed."""
+    print("a slow child …")
     parent, legs = _start("patient_errand.py", "steady")
     _require_patience(parent, legs)
+    print("a silent child …")
     reason = _require_cancel_of_a_silent_child()
+    print("a child that dies …")
     parent, legs = _start("patient_errand.py", "steady")
     goal = _under_way(parent, LONG_WORK_TIME)
     legs.kill()

@@ -53,7 +53,7 @@ def decides_by_the_new_values() -> str:
             straight,
             {"speed": 0.0},
             True,
-            "speed 0.0 with turn 0.0 is allowed: multiply instead of dividing by the turn",
+            "0.0 m/s with a turn of 0.0 is no tight circle: require at least TIGHTEST * abs(turn), with >=",
         ),
         (
             wide,
@@ -274,9 +274,11 @@ def _words(values: Mapping[str, Any]) -> str:
 
 
 def waits_for_a_lasting_condition() -> str:
-    """Call lasts() of two objects at several times, for one of them from time 0 on."""
+    """Call lasts() of three objects at several times, for one of them from time 0 on."""
     make = read_program("steady.py")["Steady"]
-    one, other = (run_student_code(partial(make, seconds), "steady.py") for seconds in (0.5, 0.2))
+    one, other, instant = (
+        run_student_code(partial(make, seconds), "steady.py") for seconds in (0.5, 0.2, 0.0)
+    )
     moments: tuple[tuple[Any, float, bool, bool, str], ...] = (
         (one, 0.0, True, False, "the condition has only just become true: return False"),
         (one, 0.3, True, False, "the condition has been true for 0.3 s, less than 0.5 s: return False"),
@@ -322,14 +324,30 @@ def waits_for_a_lasting_condition() -> str:
             "the condition has been true for 0.25 s, and this object needs 0.2 s: compare with self.seconds",
         ),
         (one, 2.05, True, True, "the condition has been true for 0.55 s without a break: return True"),
+        (
+            instant,
+            2.1,
+            True,
+            True,
+            "the condition has been true for 0.0 s, and Steady(0.0) needs no more: return now - self.since >= "
+            "self.seconds in the first round, too",
+        ),
+        (instant, 2.15, False, False, "the condition is false: return False"),
     )
+    seconds = {id(one): 0.5, id(other): 0.2, id(instant): 0.0}
     for steady, now, is_so, wanted, reason in moments:
         got = run_student_code(partial(steady.lasts, is_so, now), "steady.py")
+        is_renewed = wanted and steady is not instant and getattr(steady, "since", None) == now
         expect(
             got == wanted,
-            seen=f"lasts({is_so}, {now}) of Steady({0.5 if steady is one else 0.2}) returned {got!r}",
+            seen=f"lasts({is_so}, {now}) of Steady({seconds[id(steady)]}) returned {got!r}",
             expected=repr(wanted),
-            next="end each path with `return` and True or False" if got is None else reason,
+            next="end each path with `return` and True or False"
+            if got is None
+            else "remember `now` only when the condition has become true: do not overwrite self.since while it stays "
+            "true"
+            if is_renewed
+            else reason,
         )
     return f"the right value in {len(moments)} calls: a condition that was false in between starts anew"
 

@@ -64,22 +64,23 @@ PREDICTIONS = (
         ),
     ),
     Question(
-        "Where does the conveyor's design lose most points?",
+        "How many of the 20 points does the conveyor's design get?",
         (
             Choice(
-                "In many places: type, QoS, failure and safety get 0 points each.",
-                "Two of the three links lack each of these facts. And the emergency stop needs a program, a network "
-                "and an answer.",
+                "6.",
+                "Type, QoS, failure and safety get 0 points each: more than half of the links lack the first three, "
+                "and the emergency stop needs a program, a network and an answer.",
                 right=True,
             ),
             Choice(
-                "In the pattern: the emergency stop is an action.",
-                "A sensible guess: it is the worst single mistake. But the other two patterns fit, so it costs one "
-                "point under pattern. It costs three under safety.",
+                "11.",
+                "A sensible guess: each link says something about each fact. But a time limit is missing from every "
+                "failure, and two of the three types have no unit.",
             ),
             Choice(
-                "In the graph: a link from the button to the line is missing.",
-                "A sensible guess: the line should know about a stop. But each of the three required links is there.",
+                "16.",
+                "A sensible guess: the emergency stop is the worst single mistake, and it costs one point under "
+                "pattern and three under safety. But type, QoS and failure get 0 points, too.",
             ),
         ),
     ),

@@ -162,13 +162,12 @@ QUESTIONS = (
 
 PREDICTIONS = (
     Question(
-        "The robot stands with a kp of 40 N·m/rad, 11 less than gravity needs, and gets a push of 10 N·s. "
-        "What happens?",
+        "The robot stands with a kp of 40 N·m/rad, and gets a push of 10 N·s. What happens?",
         (
             Choice(
-                "It stands as before: 40 is not much less than 51.",
-                "A sensible guess: the difference is small, and kd still damps the motion. But the difference has the "
-                "wrong sign, so the robot never comes back.",
+                "It stands as before: the controller still pulls back.",
+                "A sensible guess: it pulls back, and kd damps the motion. But gravity pulls with 51 N·m/rad, and 40 "
+                "is less, so the robot never comes back.",
             ),
             Choice(
                 "It leans a little further than with its own gains, and stays like that.",
@@ -263,8 +262,7 @@ PREDICTIONS = (
         ),
     ),
     Question(
-        "kp is 60, 9 more than gravity takes. The robot gets four pushes of 10 N·s, one every second. "
-        "What does its pitch look like?",
+        "kp is 60. The robot gets four pushes of 10 N·s, one every second. What does its pitch look like?",
         (
             Choice(
                 "As with 276: four small swings, each back at 0 before the next.",

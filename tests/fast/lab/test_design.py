@@ -53,6 +53,30 @@ def test_a_design_with_all_six_facts_is_not_graded(
     assert kept == [("arm", 6, 6)]
 
 
+@pytest.mark.parametrize(
+    ("comments", "needs", "said"),
+    [
+        ("# need 1\n# needs 2, 3 and 4\n", 0, ""),
+        ("# need 1\n# needs 2, 4\n", 0, "no comment beside a link names the need 3"),
+        ("# need 1\n#\n", 3, "no comment beside a link names the needs 2, 3"),
+        ("# in 30 s\n# need 1 of 30\n", 0, ""),
+        ("# needs 1,2\n# need 999999999\n", 0, ""),
+    ],
+)
+def test_needs_that_no_comment_names_are_listed(
+    tmp_path: Path, capsys: pytest.CaptureFixture, kept: list[tuple], comments: str, needs: int, said: str
+) -> None:
+    first, second = comments.splitlines()
+    text = (
+        f"# need 5\n{WHOLE.replace('Image', f'Image  {first}')}{WHOLE.replace('Image', f'Image  {second}')}"
+    )
+    lab.check_design(written(tmp_path, text), needs=needs)
+    printed = capsys.readouterr().out
+    assert said in printed
+    assert ("names the need" in printed) == bool(said)
+    assert len(kept) == 1
+
+
 def test_a_design_is_drawn(tmp_path: Path) -> None:
     html = lab.draw_design(written(tmp_path, WHOLE), title="One link").data
     assert "<title>One link</title>" in html

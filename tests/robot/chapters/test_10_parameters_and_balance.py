@@ -208,6 +208,10 @@ OVER = "for parameter in parameters:\n    wanted[parameter.name] = parameter.val
             "every `<` and `>` with NaN is false",
         ),
         (
+            f'{OVER}if not wanted["speed"] > TIGHTEST * abs(wanted["turn"]):\n{REFUSED}',
+            "require at least TIGHTEST * abs(turn), with >=",
+        ),
+        (
             f'{OVER}if not wanted["speed"] >= TIGHTEST * wanted["turn"]:\n{REFUSED}',
             "a turn to the right is negative",
         ),
@@ -245,7 +249,13 @@ LASTS = "return now - self.since >= self.seconds"
         ("return is_so", "the condition has only just become true"),
         (f"if not is_so:\n    return False\n{BEGIN}{LASTS}", "set self.since to None when it is false"),
         (f"{FORGET}if not self.since:\n    self.since = now\n{LASTS}", "test `self.since is None`"),
-        (f"{FORGET}self.since = now\n{LASTS}", "the condition has been true for 0.55 s"),
+        (f"{FORGET}self.since = now\n{LASTS}", "do not overwrite self.since while it stays true"),
+        (
+            "self.since = now if is_so else None\nreturn is_so and now - self.since >= self.seconds",
+            "do not overwrite self.since while it stays true",
+        ),
+        (f"{FORGET}{BEGIN}    return False\n{LASTS}", "Steady(0.0) needs no more"),
+        (f"{FORGET}{BEGIN}{LASTS.replace('>=', '>')}", "Steady(0.0) needs no more"),
         (f"{FORGET}{BEGIN}return now - self.since >= 0.5", "compare with self.seconds"),
         (f"{FORGET}{BEGIN}return now - Steady.since >= self.seconds", "AttributeError"),
         (

@@ -163,6 +163,17 @@ ASK = "    if self.should_stop(goal_handle) and not asked:\n        child.cancel
         ),
         (f"{LOOP}{ASK}        asked = True\n    time.sleep(TOCK)", "fix the error that is named here"),
         (f"{LOOP}{ASK}    time.sleep(TICK)", "remember that you have sent one"),
+        (
+            f"{LOOP}{ASK.replace('self.should_stop(goal_handle)', 'goal_handle.is_cancel_requested')}"
+            "        asked = True\n    time.sleep(TICK)",
+            "check self.should_stop(goal_handle), not goal_handle.is_cancel_requested",
+        ),
+        (
+            f"{LOOP}{ASK.replace('cancel_goal_async', 'cancel_goal')}        asked = True\n    time.sleep(TICK)",
+            "cancel_goal() blocks until a response arrives",
+        ),
+        (f"{LOOP}{ASK}        asked = True", "call time.sleep(TICK) in each round"),
+        (f"{LOOP}{ASK}        asked = True\n    time.sleep(0.005)", "call time.sleep(TICK) in each round"),
     ],
 )
 def test_the_gap_of_the_cancel_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
@@ -218,7 +229,13 @@ def test_the_gap_of_the_ways_out_says_what_is_wrong(gaps: GapTrials, lines: str,
         (
             "careful_errand.py",
             "while not end.done() and not self.should_stop(goal_handle):\n    time.sleep(TICK)\n"
-            "if not end.done():\n    child.cancel_goal()\nwhile not end.done():\n    time.sleep(TICK)",
+            "if not end.done():\n    child.cancel_goal_async()\nwhile not end.done():\n    time.sleep(TICK)",
+        ),
+        (
+            "careful_errand.py",
+            "from errand import wait_for\nanswer = None\nwhile not wait_for(end, TICK):\n"
+            "    if answer is None and self.should_stop(goal_handle):\n"
+            "        answer = child.cancel_goal_async()",
         ),
         (
             "patient_errand.py",
