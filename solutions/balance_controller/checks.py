@@ -33,7 +33,7 @@ AT_START = {"kp_pitch": 310.0, "kd_roll": 41.5}
 START = in_order(
     *(["ask"], ["settle"]), parameters=AT_START, latched=True, interrupt=True, started_with=AT_START
 )
-POWERLESS_START = program("start_with", {"name": "max_torque", "value": "0.0"}, timed=False)
+WEAK_START = program("start_with", {"name": "kp_pitch", "value": "51.0"}, timed=False)
 PUSH = in_order(
     *(["ask"], ["settle"], ["set_together", {"kp_pitch": 340.0, "kp_roll": 370.0, "kd_roll": 46.0}]),
     *(["settle"], ["push", 10.0, 0.0, 0.0]),
@@ -98,7 +98,7 @@ refuses_a_bad_start = check_of(
     model.refuses_to_start,
     title="Started with an invalid gain, it exits with status 1 and a line that says why",
     points=2,
-    on=POWERLESS_START,
+    on=WEAK_START,
     needs=server_appears,
 )
 survives_a_push = check_of(
