@@ -122,9 +122,18 @@ install_with_pip() {
     logged "${pip[@]}" "${isolation[@]}" --editable "$root[$1]"
 }
 
+# Run a command with its output in the log, and say every 20 s that the set-up goes on.
 logged() {
+    local ticker status=0
     echo "+ $*" >>"$log"
-    "$@" >>"$log" 2>&1 </dev/null 9>&-
+    while sleep 20 >/dev/null 2>&1 && kill -0 $$ 2>/dev/null; do
+        say "the set-up goes on ($((SECONDS - started)) s so far)"
+    done 9>&- &
+    ticker=$!
+    "$@" >>"$log" 2>&1 </dev/null 9>&- || status=$?
+    kill "$ticker" 2>/dev/null
+    wait "$ticker" 2>/dev/null
+    return $status
 }
 
 explain_failure() {

@@ -36,7 +36,16 @@ class CannotBeJudged(Exception):
 
 
 class NoOccasion(CannotBeJudged):
-    """The run had no occasion to judge an obligation. If the retries have none either, the check fails."""
+    """The run had no occasion to judge an obligation. If the retries have none either, the check fails.
+
+    Args:
+        what: the sentence that could not be judged.
+        instead: what the run shows instead, '' if nothing is known.
+    """
+
+    def __init__(self, what: str, instead: str = "") -> None:
+        super().__init__(what)
+        self.instead = instead
 
 
 def expect(

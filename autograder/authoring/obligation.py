@@ -22,6 +22,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from autograder.authoring.checks import Check, Scenario, check_by
+from autograder.authoring.diagnosis.goal_diagnosis import how_goals_ended
 from autograder.authoring.diagnosis.missing import unseen
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.call import Call
@@ -138,7 +139,7 @@ def check_of(
                 raise
             if not occasions:
                 require_all_steps(run)
-                raise NoOccasion(each.sentence)
+                raise NoOccasion(each.sentence, how_goals_ended(run))
         if to_its_end:
             require_all_steps(run)
 

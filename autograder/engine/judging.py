@@ -46,11 +46,8 @@ def judge(check: Check, transcripts: Sequence[Transcript], *, is_last_attempt: b
                 check,
                 "failed",
                 expected=f"an answer from which this can be judged: {requirement}",
-                observed="none of its answers allows that",
-                help=_with_lesson(
-                    "Fix what the other checks report first: without such an answer this check cannot pass.",
-                    check.see,
-                ),
+                observed=requirement.instead or "none of its answers allows that",
+                help="Fix what the other checks report first: without such an answer this check cannot pass.",
                 log=log,
             )
         return verdict_on(check, "error", help=f"Not graded: nothing showed whether {requirement}", log=log)

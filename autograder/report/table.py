@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from autograder.engine.exercise import Exercise
 from autograder.engine.verdict import CheckVerdict, Grade
 
 LOG_LINES = 6
+NEAR_TIME = 5.0  # s before and after a failure, in which lines of the log may tell why
 
 MARKS = {
     "passed": ("✓", "green"),
@@ -25,6 +27,7 @@ MARKS = {
     "marked": ("•", "cyan"),
 }
 LONGEST_TEXT = 8000  # characters
+_LINE_TIME = re.compile(r" *(\d+\.\d\d) s  ")
 
 
 def print_beginning(console: Console, path: Path, exercise: Exercise) -> None:
@@ -64,9 +67,18 @@ def explanation(verdict: CheckVerdict) -> Table:
         table.add_row("observed", Text.assemble(verdict.observed, (when, "dim")))
     if verdict.help:
         table.add_row("next", Text(verdict.help))
-    for line in verdict.log.splitlines()[-LOG_LINES:]:
+    for line in _near_the_failure(verdict):
         table.add_row("log", Text(line, "dim"))
     return table
+
+
+def _near_the_failure(verdict: CheckVerdict) -> list[str]:
+    """Return the last lines of the log from about the time of the failure; if there are none, the last lines of all."""
+    lines = verdict.log.splitlines()
+    at = verdict.robot_time
+    timed = [(_LINE_TIME.match(line), line) for line in lines]
+    near = [line for time, line in timed if time and at is not None and abs(float(time[1]) - at) <= NEAR_TIME]
+    return (near or lines)[-LOG_LINES:]
 
 
 def grade_table(grade: Grade) -> RenderableType:

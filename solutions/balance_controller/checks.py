@@ -33,7 +33,7 @@ AT_START = {"kp_pitch": 310.0, "kd_roll": 41.5}
 START = in_order(
     *(["ask"], ["settle"]), parameters=AT_START, latched=True, interrupt=True, started_with=AT_START
 )
-WEAK_START = program("start_with", {"name": "kp_pitch", "value": "40.0"}, timed=False)
+WEAK_START = program("start_with", {"name": "kp_pitch", "value": "51.0"}, timed=False)
 PUSH = in_order(
     *(["ask"], ["settle"], ["set_together", {"kp_pitch": 340.0, "kp_roll": 370.0, "kd_roll": 46.0}]),
     *(["settle"], ["push", 10.0, 0.0, 0.0]),
@@ -68,7 +68,7 @@ refuses_bad_gains = check_of(
 says_nothing_of_refused_gains = check_of(
     [model.publishes_nothing_for_rejected_sets, model.accepts_the_table, model.one_message_each],
     on=REFUSALS,
-    needs=[publishes_once, refuses_bad_gains],
+    needs=publishes_once,
 )
 sets_all_or_none = check_of(
     [

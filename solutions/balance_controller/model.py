@@ -109,6 +109,7 @@ def _rejects(sentence: str, *faults: str, clause: int = 3) -> Obligation:
             expected=f"{change.words} rejected, because {advice.REJECTIONS[fault][0]}",
             observed="accepted",
             help=advice.about_accepting(change, fault),
+            see="10_parameters_and_balance#circle-why" if fault == gains.LIMIT else "",
         )
         return f"{fault}, {'alone' if len(change.values) == 1 else 'among others'}"
 

@@ -40,7 +40,13 @@ FAILING = scenario(
     fetch("a grasp is aborted", children=[{}, {**FAILS, "said": "the fingers closed on nothing"}]),
     fetch("a walk is rejected", children=[{"accepted": False}]),
 )
-SILENT = scenario(fetch("fetch", children=[{"silent_after": 0.6, "takes": 60.0}]))
+SILENT = scenario(
+    fetch("fetch", children=[{"silent_after": 0.6, "takes": 60.0}]),
+    fetch(
+        "it speaks again",
+        children=[{"silent_after": 0.6, "silent_for": 6.5, "takes": 60.0, "stops": (False, 0.0)}],
+    ),
+)
 LATE = scenario(fetch("late", children=[{"answered_after": 6.5, "takes": 60.0}]), Part([["wait", 2.0]]))
 PREEMPTED = scenario(preempt("old", "new", 1, stops=(True, 1.5)))
 

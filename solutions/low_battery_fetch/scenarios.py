@@ -43,6 +43,7 @@ def in_order(
         accepted: whether the goal is accepted; None: no response.
         answered_after: time until it is accepted or rejected.
         silent_after: time after which it sends no more feedback.
+        silent_for: time after which it sends feedback again.
         ends, code, said: its final status, error_code and error_msg.
         stops: whether it accepts a cancel (None: no response), and the time until it is canceled.
     """
@@ -145,11 +146,15 @@ def _pick(script: Script, force: float) -> GoalScript:
 def _script(script: Script, feedback: Sequence[Any], takes: float, result: Any) -> GoalScript:
     agreed, stops_after = script.get("stops", (True, 1.0))
     result.error_code, result.error_msg = script.get("code", 0), script.get("said", "")
+    before = _messages(script.get("silent_after", takes))
     return GoalScript(
         accepted=script.get("accepted", True),
         after=script.get("answered_after", 0.0),
-        feedback=feedback[: _messages(script.get("silent_after", takes))],
-        every=FEEDBACK_PERIOD,
+        feedback=feedback if "silent_for" in script else feedback[:before],
+        every=[
+            script.get("silent_for", FEEDBACK_PERIOD) if number == before else FEEDBACK_PERIOD
+            for number, _ in enumerate(feedback, start=1)
+        ],
         ends_after=takes,
         status=getattr(GoalStatus, f"STATUS_{script.get('ends', 'SUCCEEDED')}"),
         result=result,

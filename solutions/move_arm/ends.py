@@ -48,8 +48,10 @@ def succeeds(goal: Goal) -> str | None:
         result.t >= plan.end - ANSWER_DELAY,
         expected="the goal to go on until its last point is due",
         observed=f"it SUCCEEDED {plan.end - result.t:.1f} s before that",
-        help="An arm may pass its final position earlier. Wait until the last point's time_from_start is over.",
+        help="An arm may pass its final position earlier, and a small error on the way is no arrival. Wait until the "
+        "last point's time_from_start is over.",
         at=result.t,
+        see="09_arms#tolerances-gap",
     )
     joint, error = worst_at(goal, result.t, plan.final())
     expect(

@@ -73,12 +73,12 @@ accepts_a_goal = check_of(
     needs=server_appears,
 )
 places_the_cup = check_of([model.places, model.puts_down], points=3, on=FETCH, needs=accepts_a_goal)
-lifts_the_cup = check_of(model.lifts, on=FETCH, needs=places_the_cup)
+lifts_the_cup = check_of(model.lifts, on=FETCH, needs=accepts_a_goal)
 keeps_the_force = check_of(model.keeps_force, points=2, on=FETCH, needs=lifts_the_cup)
 fills_the_result = check_of(model.filled_result, on=FETCH, needs=places_the_cup)
 feedback_keeps_its_rate = check_of(model.feedback_at_5_hz, on=FETCH, needs=accepts_a_goal)
-names_its_stages = check_of(model.names_stages, on=FETCH, needs=places_the_cup)
-stages_are_true = check_of(model.true_stages, on=FETCH, needs=[names_its_stages, lifts_the_cup])
+names_its_stages = check_of(model.names_stages, on=FETCH, needs=lifts_the_cup)
+stages_are_true = check_of(model.true_stages, on=FETCH, needs=names_its_stages)
 feedback_is_measured = check_of(model.measured, on=FETCH, needs=accepts_a_goal)
 percentage_rises = check_of(model.percentage, on=FETCH, needs=places_the_cup)
 feedback_ends_with_the_goal = check_of(model.no_late_feedback, on=FETCH, needs=places_the_cup)
@@ -108,7 +108,7 @@ refuses_a_far_cup = check_of(
     needs=accepts_a_goal,
 )
 notices_an_empty_hand = check_of(
-    [model.empty_hand, model.says_why_it_aborted], points=2, on=TAKEN, needs=places_the_cup
+    [model.empty_hand, model.says_why_it_aborted], points=2, on=TAKEN, needs=lifts_the_cup
 )
 withdraws_an_empty_hand = check_of(model.withdraws_empty, on=TAKEN, needs=notices_an_empty_hand)
 notices_a_lost_cup = check_of(
@@ -119,7 +119,7 @@ notices_a_lost_cup = check_of(
     needs=lifts_the_cup,
 )
 gives_up_when_blocked = check_of(
-    [model.gives_up_in_time, model.says_why_it_aborted], on=BLOCKED, needs=places_the_cup
+    [model.gives_up_in_time, model.says_why_it_aborted], on=BLOCKED, needs=lifts_the_cup
 )
 cancels_before_the_grasp = check_of(
     model.leaves_the_cup,
@@ -135,7 +135,9 @@ puts_the_cup_back = check_of(
     on=HOLDING,
     needs=[lifts_the_cup, cancels_before_the_grasp],
 )
-has_one_hand = check_of([model.one_hand, model.places], points=2, on=TWO, needs=lifts_the_cup)
+has_one_hand = check_of(
+    [model.one_hand, model.places], points=2, on=TWO, needs=[places_the_cup, lifts_the_cup]
+)
 aborts_when_the_robot_falls = check_of(
     [model.tells_a_fall, model.says_why_it_aborted], on=FALL, needs=accepts_a_goal
 )

@@ -7,7 +7,7 @@ import math
 from autograder.authoring import SUCCEEDED, Goal, ev, expect, why_rclpy_aborted
 from autograder.authoring.walking.life import ended_at, phase
 
-from .life import canceled_at, holds_at, is_for_the_cup, robbed_at
+from .life import canceled_at, ends_by_itself, holds_at, is_for_the_cup, is_possible, robbed_at
 from .objections import MAX_FORCE
 from .truth import carried, reports, taken_from
 
@@ -20,18 +20,18 @@ GENTLE, FIRM = 7.0, 12.0  # N
 
 def lifts(goal: Goal) -> str | None:
     """It lifts the cup by at least 5 cm on its way."""
-    result = goal.result
-    if result is None or result.status != SUCCEEDED:
+    if not ends_by_itself(goal) or not is_possible(goal):
         return None
-    height = taken_from(goal)[2]
-    cups = reports(goal.run, ev.ObjectTruth, goal.accepted_at, result.t)
+    height, until = taken_from(goal)[2], min(ended_at(goal), goal.run.end)
+    cups = reports(goal.run, ev.ObjectTruth, goal.accepted_at, until)
     top = max(cup.position[2] for cup in cups) - height
     expect(
         top >= MIN_LIFT,
         expected=f"the cup lifted by at least {MIN_LIFT:.2f} m on its way",
         observed=f"it was at most {top:.3f} m above where it stood",
-        help="Close the hand on the cup, move it straight up by 0.12 m, then across, then down.",
-        at=result.t,
+        help=why_rclpy_aborted(goal)
+        or "Close the hand on the cup, move it straight up by 0.12 m, then across, then down.",
+        at=until,
     )
     return phase(goal)
 

@@ -12,7 +12,7 @@ from autograder.authoring.walking.life import accepted, ended_at, interrupted, w
 from humanoid_interfaces.action import PickAndPlace
 from ros_runtime.message_constants import GoalStatus, name_of
 
-from .life import canceled_at, commanded, is_for_the_cup, robbed_at
+from .life import canceled_at, commanded, ends_by_itself, is_for_the_cup, is_possible, robbed_at
 from .truth import Grip, as_tuple, grips, taken_from
 
 MIN_DURATION = 3.0  # s; the feedback of a shorter goal is not checked
@@ -53,7 +53,7 @@ def names_stages_in_order(goal: Goal) -> str | None:
         help="Use the constants of PickAndPlace.Feedback, e.g. PickAndPlace.Feedback.APPROACHING: their values are in "
         "lower case.",
     )
-    if goal.status != SUCCEEDED:
+    if goal.status != SUCCEEDED and not (ends_by_itself(goal) and is_possible(goal)):
         return _how_it_ended(goal)
     order = [named[0], *(after for before, after in pairwise(named) if after != before)]
     expect(

@@ -17,7 +17,7 @@ from .truth import carried, grip_at, grips, place_of, reports, taken_from
 MIN_UPRIGHT = 0.8  # vertical component of the cup's axis, a unit vector; less means that it has fallen over
 MAX_JOINT_MOTION = 0.05  # rad
 MAX_OPENING_CHANGE = 0.01  # m
-EARLIEST_UNKNOWN, LATEST_UNKNOWN = 0.8, 4.0  # s after acceptance, between which UNKNOWN_OBJECT must come
+EARLIEST_UNKNOWN, LATEST_UNKNOWN = 0.8, 2.5  # s after acceptance, between which UNKNOWN_OBJECT must come
 GRASP_TIMEOUT = 20.0  # s for a hand that does not arrive
 NEAR_THE_CUP = 0.2  # m
 BEFORE_LOSS = 0.1  # s
@@ -47,7 +47,7 @@ def knows_what_is_unknown(goal: Goal) -> str | None:
     took = result.t - goal.accepted_at
     expect(
         (EARLIEST_UNKNOWN if is_a_name else 0.0) <= took <= LATEST_UNKNOWN,
-        expected="the goal ABORTED after 1 s without a message",
+        expected="the goal ABORTED after 1 s without a message, and within 2 s of its acceptance",
         observed=f"ABORTED after {took:.1f} s",
         help="Wait 1 s for a message: poses are published 10 times a second, but discovering the publisher takes time.",
         at=result.t,

@@ -23,7 +23,12 @@ LEANED_ON = crouching(["lean_on", 20.0, 4.0], ["go", "rise"], ["end", "rise"])
 PUSHED = crouching(["go", "rise"], ["reach", BEGUN], ["lean_on", -20.0, 2.5], ["end", "rise"])
 AHEAD, LEFT, BACK, RIGHT = 0.0, math.pi / 2, math.pi, -math.pi / 2  # rad, in base_link
 GLIDES = played(
-    "be_restless", {"speed": 0.06, "tilt": 0.0, "towards": [AHEAD, RIGHT], "calm": 0.0, "duration": 1.6}
+    "be_restless",
+    {"speed": 0.06, "tilt": 0.0, "towards": [AHEAD, RIGHT], "calm": 0.0, "duration": 1.6, "lifted": 0.02},
+)
+SWAYS = played(
+    "sway_before",
+    {"nearly": 0.4, "light": 0.4, "even": 2, "uneven": 8, "swings": 3, "rests": 0.9, "rising": 0.7},
 )
 LEANS = played(
     "be_restless",
@@ -86,7 +91,7 @@ waits_for_even_loads = once_it_rises(
     [model.stays_down_while_uneven, model.names_shifting, model.succeeds],
     title="While somebody leans on the robot, it stays down, in the phase 'shifting'; then it rises",
     points=2,
-    on=LEANED_ON,
+    on=[LEANED_ON, SWAYS],
 )
 shifts_again_after_a_push = once_it_rises(
     [model.shifts_again, model.names_shifting, model.succeeds],

@@ -22,6 +22,7 @@ ROBOT_TOPICS_TIME = 1.0  # s for the first messages of the robot to arrive
 HEIGHT_TIMEOUT = 5.0  # s for the pelvis to reach a height
 RESULT_TIMEOUT = 16.0  # s for any result
 UNEVEN = 0.5  # the smaller load over the larger, at most, when somebody leans on the robot
+LIFT_TIME = 0.5  # s for the feedback to tell a new height of the pelvis
 UNEVEN_TIMEOUT = 4.0  # s for the loads to become uneven
 NO_VELOCITY = (0.0, 0.0, 0.0)
 
@@ -94,9 +95,16 @@ def ask_before_anything_is_known(stage: Stage) -> None:
 
 
 def sway_before(
-    stage: Stage, nearly: float, light: float, even: int, uneven: int, swings: int, rests: float
+    stage: Stage,
+    nearly: float,
+    light: float,
+    even: int,
+    uneven: int,
+    swings: int,
+    rests: float,
+    rising: float | None = None,
 ) -> None:
-    """Simulate a robot whose loads are nearly even, then swing from foot to foot, then stay even.
+    """Simulate a robot whose loads are not even at first, then swing from foot to foot, then stay even.
 
     Args:
         stage: the stage.
@@ -105,7 +113,8 @@ def sway_before(
         even: number of messages with even loads in the middle of each swing.
         uneven: number of messages with uneven loads in each swing.
         swings: number of swings from one side to the other.
-        rests: the right foot's load over the left foot's, at the end.
+        rests: the right foot's load over the left foot's, after the swings.
+        rising: the same, as soon as the pelvis rises; by default as after the swings.
     """
     with _SimulatedRobot(stage, 0.45) as robot:
         stand_up = _open(stage)
@@ -117,6 +126,9 @@ def sway_before(
             robot.follow([1.0] * even + [1.0 / light if swing % 2 else light] * uneven)
         stage.poll_until(lambda: robot.has_followed, HEIGHT_TIMEOUT)
         robot.change("even", share=rests)
+        if rising is not None:
+            stage.poll_until(lambda: robot.z >= BEGUN, HEIGHT_TIMEOUT)
+            robot.change(share=rising)
         goal.wait_for_result(RESULT_TIMEOUT)
 
 
@@ -133,7 +145,13 @@ def step_aside_at_the_top(stage: Stage, light: float, duration: float) -> None:
 
 
 def be_restless(
-    stage: Stage, speed: float, tilt: float, towards: Sequence[float], calm: float, duration: float
+    stage: Stage,
+    speed: float,
+    tilt: float,
+    towards: Sequence[float],
+    calm: float,
+    duration: float,
+    lifted: float = 0.0,
 ) -> None:
     """Simulate a robot that rises, then glides or leans for a while before it is still and upright.
 
@@ -144,9 +162,17 @@ def be_restless(
         towards: the directions in which it glides and leans, one after the other, rad in base_link.
         calm: how long it is still and upright after every 0.3 s of motion, s; 0: never.
         duration: of the motion in each direction, s.
+        lifted: height by which somebody lifts the pelvis and lowers it again, m, while the loads are not even yet.
     """
     with _SimulatedRobot(stage, 0.48) as robot:
+        robot.change(share=0.5 if lifted else 1.0)
         goal = _open(stage).send_and_wait(as_="rise")
+        if lifted:
+            for height in (lifted, -lifted):
+                stage.wait(LIFT_TIME)
+                robot.change(z=robot.z + height)
+            stage.wait(LIFT_TIME)
+            robot.change(share=1.0)
         stage.poll_until(lambda: robot.z >= NEAR_THE_TOP, HEIGHT_TIMEOUT)
         robot.change("restless", speed=speed, tilt=tilt, calm=calm)
         for toward in towards:
@@ -185,7 +211,7 @@ def _open(stage: Stage) -> ActionClient:
 
 PERIOD = 0.05  # s between two messages of the simulated robot
 WEIGHT = 372.0  # N
-NEAR_THE_TOP, TOP, STANCE = 0.575, 0.59, 0.60  # m
+BEGUN, NEAR_THE_TOP, TOP, STANCE = 0.47, 0.575, 0.59, 0.60  # m
 MOTION_PERIODS = 6  # 0.3 s of motion between two pauses
 COMMAND_PERIODS = 10  # 0.5 s, for which a velocity command is valid
 BOB = 0.003  # m

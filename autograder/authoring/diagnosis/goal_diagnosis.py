@@ -13,6 +13,7 @@ from ros_runtime.message_constants import GoalStatus, name_of
 
 if TYPE_CHECKING:
     from autograder.authoring.evidence.goal import Goal
+    from autograder.authoring.evidence.transcript import Transcript
 
 LOOP_TIME = 1.5  # s; if the last feedback is not older, execute is still in its loop
 MIN_FROZEN = 10  # feedback messages; so many with the same distance are no coincidence while the robot moves
@@ -67,6 +68,16 @@ def error_name(goal: Goal) -> str:
     result = goal.result.result if goal.result else None
     code = getattr(result, "error_code", None)
     return next((name for name in dir(type(result)) if name.isupper() and getattr(result, name) == code), "")
+
+
+def how_goals_ended(run: Transcript) -> str:
+    """Return how long after its acceptance each goal of a run ended, and how, in words; '' if none did."""
+    return "; ".join(
+        f"the goal “{goal.name}” was {name_of(GoalStatus, goal.result.status)} "
+        f"{max(0.0, goal.result.t - goal.answer.t):.1f} s after its acceptance"
+        for goal in run.goals
+        if goal.answer and goal.answer.accepted and goal.result
+    )
 
 
 def lesson_on_the_end(goal: Goal) -> str:

@@ -11,6 +11,7 @@ from autograder.authoring.evidence.goal import Goal
 from autograder.authoring.failure import expect
 
 MIN_RATE, MAX_RATE = 3.0, 10.0  # Hz; the task asks for 5
+MIN_MESSAGES = 3  # to measure a rate
 RATE_SLACK = 0.5  # Hz of measuring error over a short walk
 MAX_GAP = 1.0  # s
 END_SLACK = 0.5  # s by which the gap before the result may be longer
@@ -23,7 +24,7 @@ def require_feedback(goal: Goal) -> None:
         len(goal.feedback) > 0,
         expected="feedback",
         observed="none",
-        help="Publish feedback while the robot walks.",
+        help="Publish feedback while the goal is active.",
     )
 
 
@@ -40,11 +41,13 @@ def require_good_feedback_rate(
     """
     start = goal.accepted_at
     times = [feedback.t for feedback in goal.feedback if goal.result is None or feedback.t <= goal.result.t]
+    ended_early = goal.result is not None and goal.result.t < start + MIN_MESSAGES / lowest
     expect(
-        len(times) >= 3,
+        len(times) >= MIN_MESSAGES,
         expected=f"feedback about {wanted:.0f} times a second while the robot moves",
-        observed=f"{len(times)} message(s)",
+        observed=f"{len(times)} message(s)" + (", and the goal ended at once" if ended_early else ""),
         help=why_rclpy_aborted(goal)
+        or ("First correct how the goal ends: it was over before feedback was due." if ended_early else "")
         or "Call goal_handle.publish_feedback(feedback), with the action's Feedback, in the loop of execute.",
         at=start,
     )

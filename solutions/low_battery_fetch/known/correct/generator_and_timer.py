@@ -93,20 +93,19 @@ class Fetching:
             return "abort", f"{name} rejects it", 0
         self.heard = time.monotonic()
         ending = at_work.get_result_async()
-        asked, silent = False, False
+        asked, given_up = False, None
         while not ending.done():
-            if time.monotonic() - self.heard > SILENCE:
-                if silent:
-                    return "abort", f"{name} is silent, and its end unknown", 0
-                silent = asked = True
-                self.heard = time.monotonic()
+            if given_up and time.monotonic() - given_up > SILENCE:
+                return "abort", f"{name} is silent, and its end unknown", 0
+            if not given_up and time.monotonic() - self.heard > SILENCE:
+                given_up, asked = time.monotonic(), True
                 at_work.cancel_goal_async()
             tired = self.robot.was_low and not homeward and self.stage in FREE
             if not asked and (tired or self.is_stopped()):
                 asked = True
                 at_work.cancel_goal_async()
             yield
-        if silent:
+        if given_up:
             return "abort", f"{name} was silent", 0
         if self.is_stopped():
             return self.how_it_stops()

@@ -160,7 +160,7 @@ class Fetch(Node):
         return handle
 
     def _on_feedback(self, goal_handle, child, message):
-        child.heard = self._now()
+        child.heard = child.heard if child.silent else self._now()  # once silent, only its result counts
         if child.name == PICK:
             child.stage = message.feedback.stage
             goal_handle.publish_feedback(message.feedback)

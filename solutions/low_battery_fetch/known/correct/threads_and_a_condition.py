@@ -194,7 +194,7 @@ class FetchServer(Node):
             was_silent = silent()
             heard[0] = time.monotonic()
             child.cancel_goal_async()
-            self.until(lambda: over.done() or silent(), math.inf)
+            self.until(lambda: over.done() or (silent() and not was_silent), LIMIT if was_silent else math.inf)
             if was_silent or not over.done():
                 raise Ending("abort", f"{name} was silent")
         leave()
