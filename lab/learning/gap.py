@@ -32,10 +32,12 @@ class Gap:
     Attributes:
         file: its name, unique in the course.
         check: runs the file and returns a sentence on what it did; raises a LabError if the lines are wrong.
+        duration: about how long the check takes, in s; None if it takes less than 5 s.
     """
 
     file: str
     check: Callable[[], str]
+    duration: int | None = None
 
 
 def expect(condition: object, *, seen: object, expected: str, next: str) -> None:
@@ -89,6 +91,8 @@ def write_and_check(file: str, program: str) -> None:
         )
     if is_python(file):
         _require_python(file, program)
+    if gap.duration:
+        print(f"{file}: the check takes about {gap.duration} s", flush=True)
     stop_nodes()
     stop_programs()
     try:

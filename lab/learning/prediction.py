@@ -59,6 +59,8 @@ class Prediction:
         self.question.choice(letter)
         self._buttons.value = letter
 
+    answer = choose  # the name that quiz questions have for it
+
     def clear(self) -> None:
         """Delete the choice."""
         self._buttons.value = None

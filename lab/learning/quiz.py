@@ -41,6 +41,8 @@ class Quiz:
         print(self.mark(letter))
         store_letter("questions", self.question, letter)
 
+    choose = answer  # the name that predictions have for it
+
     def mark(self, letter: str) -> str:
         """Return a sentence that says whether a choice is right, and why.
 

@@ -17,6 +17,7 @@ SWAY, SWAY_PERIOD = 0.03, 0.88  # m to each side, s for two steps
 MAX_PATH_ERROR_RATIO = 0.15  # of the distance really walked
 MAX_COUNTED_SWAY = 0.25  # m, for a robot that steps on the spot
 MARCH_DURATION = 30.0  # s
+LONG_PIECES = "a piece of 0.5 m and one of 0.9 m"
 SHORT_PIECE = 0.01  # m, less than the distance between most points of the march
 
 
@@ -52,6 +53,7 @@ def decides_the_phase() -> str:
             there,
             "in phase WALK a bearing below ASTRAY is allowed, and the robot is near: return THERE",
         ),
+        (there, 0.5, 0.3, turn, "ASTRAY is the limit in phase WALK only: in phase THERE it is ALIGNED, too"),
         (there, 0.7, 0.05, walk, "the robot was pushed away and the distance is over REACH: return WALK"),
     )
     for phase, distance, bearing, wanted, reason in situations:
@@ -72,6 +74,7 @@ def leaves_out_the_sway() -> str:
         "2 m straight": (2.0, _along([(0, 0), (2, 0)])),
         "2 m there and 2 m back": (4.0, _along([(0, 0), (2, 0), (0, 0)])),
         "1.5 m ahead and 1.5 m to the left": (3.0, _along([(0, 0), (1.5, 0), (1.5, 1.5)])),
+        LONG_PIECES: (1.4, [(0.0, 0.0), (0.5, 0.0), (1.4, 0.0)]),
     }
     march = list(_march())
     marched = _walked(walked, march)
@@ -90,6 +93,8 @@ def leaves_out_the_sway() -> str:
             continue
         if "back" in name and metres < 0.5:
             advice = "add up the pieces: the distance from the start is small again after the way back"
+        elif name == LONG_PIECES:
+            advice = "add the piece itself, the distance from last to here, not `shortest`"
         elif metres < truth:
             advice = "add each piece that is long enough to metres with +=, and then set last = here"
         else:

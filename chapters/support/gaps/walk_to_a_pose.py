@@ -212,6 +212,13 @@ def _require_measured(messages: list[dict[str, Any]], steps: int) -> None:
         next="use abs(self.distance_left(goal_handle, start)): it is negative past the goal",
     )
     for each in messages:
+        past = each["robot_x"] - GOAL
+        expect(
+            each["left"] > 0.0 or past <= MAX_FEEDBACK_ERROR,
+            seen=f"distance_remaining 0.00 m, with the robot {past:.2f} m past the goal",
+            expected=f"{past:.2f} m",
+            next="use abs(self.distance_left(goal_handle, start)), the distance on either side of the goal",
+        )
         expect(
             abs(each["x"] - each["robot_x"]) <= MAX_FEEDBACK_ERROR
             and abs(each["left"] - abs(GOAL - each["robot_x"])) <= MAX_FEEDBACK_ERROR,

@@ -27,7 +27,7 @@ from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
 
 PUSH_DISTANCE = 0.3  # m that the robot is pushed back when it stops for the first time
-SLIDE_DISTANCE = 0.06  # m that it slides ahead each time it stops after that
+SLIDE_DISTANCE = 0.13  # m that it slides ahead each time it stops after that, past the goal
 MAX_COMMANDS = 150
 MAX_DISTANCE_READS = 1000
 PERIOD = 0.2  # s that the robot moves for each command

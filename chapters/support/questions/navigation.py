@@ -80,7 +80,7 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "A guard has cancelled a goal. When may it report that the robot is safe?",
+        "A guard has cancelled a goal of a server that you didn't write. When may it report that the robot is safe?",
         (
             Choice(
                 "When the server has accepted the cancel.",

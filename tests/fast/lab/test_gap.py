@@ -75,6 +75,20 @@ def test_lines_that_are_not_python_are_quoted() -> None:
         write_and_check("double.py", "def double(x):\n    return (2 x\n")
 
 
+def test_a_long_check_says_at_once_how_long_it_takes(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    printed_before: list[str] = []
+
+    def check() -> str:
+        printed_before.append(capsys.readouterr().out)
+        return "done"
+
+    monkeypatch.setattr(gap_module, "read_gaps", lambda chapter: (Gap("double.py", check, duration=8),))
+    write_and_check("double.py", fill(PROGRAM, "return 2 * x\n"))
+    assert printed_before == ["double.py: the check takes about 8 s\n"]
+
+
 def test_correct_lines_are_confirmed_and_saved(capsys: pytest.CaptureFixture[str]) -> None:
     write_and_check(" double.py ", fill(PROGRAM, "return 2 * x\n"))
     assert capsys.readouterr().out.splitlines()[-1] == "✓ double.py: double(4) is 8"

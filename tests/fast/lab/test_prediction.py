@@ -47,6 +47,12 @@ def test_an_experiment_waits_for_a_prediction() -> None:
     prediction.require()
 
 
+def test_a_prediction_can_also_be_made_with_the_word_of_the_quiz() -> None:
+    prediction = Prediction(1, EXAMPLE)
+    prediction.answer("b")
+    assert prediction.letter == "b"
+
+
 def test_a_click_makes_the_prediction_and_says_what_to_do_next() -> None:
     prediction = Prediction(1, EXAMPLE)
     answers, _, note = panel(prediction)

@@ -55,6 +55,13 @@ def test_an_answer_is_kept_whether_written_or_clicked() -> None:
     assert Quiz("Question 1", EXAMPLE)._buttons().children[0].value == "a"
 
 
+def test_a_question_can_also_be_answered_with_the_word_of_predictions(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    Quiz("Question 1", EXAMPLE).choose("a")
+    assert capsys.readouterr().out == "a: Right. Count.\n"
+
+
 def test_code_in_a_question_is_shown_as_code() -> None:
     question = Question("What does `a < b` do?", EXAMPLE.choices)
     assert "<code>a &lt; b</code>" in question.text_under("Question 1").data

@@ -173,6 +173,10 @@ OWN, DONE = ", callback_group=self.waiting", "lambda: future.set_result(None)"
         ("await Future()", "let a timer complete the future"),
         (WAIT.format(DONE, OWN, "await future").rpartition("\n")[0], "each wait leaves one more timer"),
         (
+            WAIT.format(DONE, OWN, "await future").replace("self.destroy_timer(timer)", "timer.cancel()"),
+            "cancelled",
+        ),
+        (
             "import threading\nfuture = Future()\n"
             "threading.Timer(seconds, lambda: future.set_result(None)).start()\nawait future",
             "a thread of your own",
@@ -236,9 +240,10 @@ def test_the_gap_of_the_question_says_what_is_wrong(gaps: GapTrials, lines: str,
         ),
         (
             "awaiting.py",
-            "done = Future()\n\n\ndef finish():\n    timer.cancel()\n    done.set_result(True)\n\n\n"
+            "done = Future()\n\n\ndef finish():\n    self.destroy_timer(timer)\n    done.set_result(True)\n\n\n"
             "timer = self.create_timer(seconds, finish, self.waiting)\nawait done",
         ),
+        ("report_fixed.py", ASK.format("lambda: future.set_result(None)", ASKING, "await future", RETURN)),
         (
             "report_fixed.py",
             "future = self.client.call_async(Trigger.Request())\n"

@@ -295,6 +295,7 @@ WAIT = "time.sleep(PERIOD)"
             "distance_remaining never changes: 0.50 m",
         ),
         (TELL.replace("abs(", "(") + WAIT, "it is negative past the goal"),
+        (TELL.replace("abs(", "max(0.0, ") + WAIT, "the distance on either side of the goal"),
         (TELL.replace("=left)", "=left / 2)") + WAIT, " m\n  next:     read self.pose and abs("),
         (TELL.replace(" - start.steps", "") + WAIT, "counted from the start of this goal"),
         (TELL.replace(EXPECT, "") + WAIT, "estimated_time_remaining 0 s, with 0."),

@@ -169,6 +169,10 @@ END = "return WALK if distance > REACH else THERE"
         (f"if abs(bearing) > ASTRAY:\n    return TURN\n{END}", "in phase TURN the bearing must get below"),
         (END, "a bearing over ASTRAY ends the phase WALK"),
         (
+            f"limit = ALIGNED if phase == TURN else ASTRAY\nif abs(bearing) > limit:\n    return TURN\n{END}",
+            "in phase THERE it is ALIGNED, too",
+        ),
+        (
             f"{LIMIT}if distance < REACH:\n    return THERE\nreturn TURN if abs(bearing) > limit else WALK",
             "near the point the robot must also face it",
         ),
@@ -199,6 +203,10 @@ PIECE = "for here in path:\n    piece = math.dist(last, here)\n"
         (
             f"{PIECE}    if piece >= shortest:\n        metres = piece\n        last = here",
             "with +=",
+        ),
+        (
+            f"{PIECE}    if piece >= shortest:\n        metres += shortest\n        last = here",
+            "add the piece itself",
         ),
         (
             f"{PIECE}    if piece >= 0.2:\n        metres += piece\n        last = here",

@@ -156,6 +156,24 @@ def test_a_goal_is_rejected_until_the_server_has_data(gaps: GapTrials) -> None:
             "CANCELED while the robot was in mid-step",
         ),
         (
+            "self.stand_still()\ngoal_handle.canceled()\nreturn self.result(first_step)",
+            "canceled() was called before self.result(first_step)",
+        ),
+        (
+            "result = self.result(first_step)\nself.stand_still()\ngoal_handle.canceled()\nreturn result",
+            "self.result(first_step) was called while the robot was in mid-step",
+        ),
+        (
+            "result = WalkTo.Result(final_pose=self.pose)\nresult.total_steps = self.state.steps - first_step\n"
+            "self.stand_still()\ngoal_handle.canceled()\nreturn result",
+            "fill the result when the robot stands",
+        ),
+        (
+            "self.stand_still()\nresult = self.result(first_step, WalkTo.Result.PREEMPTED, 'cancel')\n"
+            "goal_handle.canceled()\nreturn result",
+            "CANCELED with error_code 2",
+        ),
+        (
             "self.stand_still()\nresult = self.result(first_step)\ngoal_handle.succeed()\nreturn result",
             "the goal ended SUCCEEDED",
         ),
@@ -191,6 +209,14 @@ def test_the_gap_of_the_cancelled_branch_says_what_is_wrong(gaps: GapTrials, lin
             "result = self.result_with_log(first_step)\ngoal_handle.succeed()\nreturn result",
             "call self.stand_still()",
         ),
+        (
+            "result = self.result_with_log(first_step)\ngoal_handle.succeed()\nself.stand_still()\nreturn result",
+            "SUCCEEDED while the robot was in mid-step",
+        ),
+        (
+            "result = self.result_with_log(first_step)\nself.stand_still()\ngoal_handle.succeed()\nreturn result",
+            "self.result_with_log(first_step) was called while the robot was in mid-step",
+        ),
         ("self.stand_still()\nself.result_with_log(first_step)\ngoal_handle.succeed()", "`return result`"),
     ],
 )
@@ -217,6 +243,14 @@ NEWER = "self.newest is not goal_handle"
         (BRANCH.format(NEWER, CODE, "pass"), "call goal_handle.abort() before you return"),
         (BRANCH.format("goal_handle.is_cancel_requested", CODE, "goal_handle.abort()"), "still EXECUTING"),
         ("if self.newest is not goal_handle:\n    goal_handle.abort()", "ABORTED with error_code 0"),
+        (
+            f"if {NEWER}:\n    goal_handle.abort()\n    return self.result(first_step{CODE})",
+            "abort() was called before self.result(first_step",
+        ),
+        (
+            BRANCH.format(NEWER, CODE, "self.stand_still()\n    goal_handle.abort()"),
+            "leave self.stand_still() out of this branch",
+        ),
     ],
 )
 def test_the_gap_of_preemption_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
@@ -228,8 +262,9 @@ def test_the_gap_of_preemption_says_what_is_wrong(gaps: GapTrials, lines: str, s
     [
         (
             "preemptable_turn.py",
-            "if self.newest != goal_handle:\n    self.stand_still()\n    goal_handle.abort()\n"
-            "    return self.result(first_step, error_code=WalkTo.Result.PREEMPTED, error_msg='newer')",
+            "if self.newest != goal_handle:\n"
+            "    result = self.result(first_step, error_code=WalkTo.Result.PREEMPTED, error_msg='newer')\n"
+            "    goal_handle.abort()\n    return result",
         ),
         (
             "cancellable_turn.py",
