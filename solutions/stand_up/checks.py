@@ -28,7 +28,7 @@ GLIDES = played(
 )
 SWAYS = played(
     "sway_before",
-    {"nearly": 0.4, "light": 0.4, "even": 2, "uneven": 8, "swings": 3, "rests": 0.9, "rising": 0.7},
+    {"nearly": 0.4, "light": 0.4, "even": 2, "uneven": 8, "swings": 3, "rests": 0.9, "rising": 0.75},
 )
 LEANS = played(
     "be_restless",
