@@ -105,7 +105,8 @@ def test_the_report_survives_its_partner(chapter: Executed) -> None:
 
 
 def test_a_rate_that_nobody_spins_beats_once(chapter: Executed) -> None:
-    unspun, spun = chapter.text("m5-run").splitlines()
+    duration, unspun, spun = chapter.text("m5-run").splitlines()
+    assert duration == "about 15 s"
     assert unspun == "unspun: beats at the start 1, in the next three seconds 0"
     assert int(spun.rpartition(" ")[2]) >= 20
 
