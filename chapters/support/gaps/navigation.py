@@ -53,8 +53,8 @@ def decides_the_phase() -> str:
             there,
             "in phase WALK a bearing below ASTRAY is allowed, and the robot is near: return THERE",
         ),
-        (there, 0.5, 0.3, turn, "ASTRAY is the limit in phase WALK only: in phase THERE it is ALIGNED, too"),
         (there, 0.7, 0.05, walk, "the robot was pushed away and the distance is over REACH: return WALK"),
+        (there, 0.5, 0.3, turn, "ASTRAY is the limit in phase WALK only: in phase THERE it is ALIGNED, too"),
     )
     for phase, distance, bearing, wanted, reason in situations:
         got = run_student_code(partial(program["next_phase"], phase, distance, bearing), "route.py")

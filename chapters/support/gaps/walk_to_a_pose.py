@@ -73,6 +73,12 @@ def measures_after_the_robot_stands() -> str:
     """Walk a toy robot half a metre; it is pushed back when it stops for the first time."""
     (seen,) = _trial("settling")
     returned, ended = seen["returned"], seen["ended"]
+    if "had not ended" in returned and ended:
+        raise not_yet(
+            "the loop goes on after it has ended the goal",
+            "no command after the terminal call",
+            "return the result right after the terminal call",
+        )
     if "had not ended" in returned:
         raise not_yet(
             "the loop never ends the goal",
