@@ -10,7 +10,6 @@ from lab.running.processes import Process
 from ros_runtime.notebook_domains import expect_node, forget_node
 
 START_TIMEOUT = 30.0  # s
-NOTICE_TIMEOUT = 1.0  # s of silence, after which a line says what is going on
 NODE_NAME = f"{NAMESPACE}/humanoid"
 
 _robot: Process | None = None
@@ -30,13 +29,7 @@ def start_robot(scene: str = "flat") -> None:
         topics.reset_for_scene(scene)
         _robot = Process(["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1", "--scene", scene])
     robot = _robot
-
-    def has_started() -> bool:
-        return topics.has_published() or not robot.is_running
-
-    if not becomes_true(has_started, NOTICE_TIMEOUT):
-        print(f"The robot is starting, which takes up to {START_TIMEOUT:g} s on a busy machine.", flush=True)
-    if not becomes_true(has_started, START_TIMEOUT):
+    if not becomes_true(lambda: topics.has_published() or not robot.is_running, START_TIMEOUT):
         raise NoRobotError(
             f"the robot runs, but not all of its topics were received within {START_TIMEOUT:g} s. The machine may be "
             f"too busy; try lab.restart_robot(). The robot printed:\n{robot.output()}"
