@@ -164,13 +164,13 @@ except ChildProcessError:
         (
             "import os, socket, time\nfor _ in range(3): os.fork()\n"
             "held = [socket.socketpair() for _ in range(100)]\ntime.sleep(60)",
-            r"there were .* sockets",
+            r"the arena had .* sockets",
         ),
         (
             "import socket, time\nserver = socket.create_server(('127.0.0.1', 0))\n"
             "held = [socket.create_connection(server.getsockname()) for _ in range(40)]\n"
             "held += [server.accept() for _ in range(40)]\ntime.sleep(60)",
-            r"there were .* TCP sockets",
+            r"the arena had .* TCP sockets",
         ),
     ],
     ids=["files", "sockets", "TCP"],
