@@ -38,7 +38,7 @@ def test_the_draft_is_refused_line_by_line(chapter: Executed) -> None:
         "expected: float64",
         "line 2: float y",
         "line 3: --",
-        "0 lines that are exactly ---",
+        "not a separator",
         "line 5: string Message",
         "string message",
     )
