@@ -104,11 +104,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     signal.signal(signal.SIGINT, signal.default_int_handler)
     if arguments is None:
         _require_utf8()
-    if COURSE != PROJECT:
-        _keep_work()
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     chosen = next((word for word in arguments if not word.startswith("-")), None)
     try:
+        if COURSE != PROJECT:
+            _keep_work()
         app(chosen)(args=list(arguments), prog_name="course")
     except Exception as error:
         if message := user_message(error):

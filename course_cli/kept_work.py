@@ -8,6 +8,7 @@ import shutil
 from pathlib import Path
 
 from ros_runtime.project import COURSE, PROJECT
+from ros_runtime.self_checks import read_progress_file
 
 ORIGINALS = PROJECT / "originals.json"  # of a student's copy: the SHA-256 of each notebook as it was released
 KEPT = ".kept"  # hidden folder of the copies
@@ -24,7 +25,8 @@ def keep_work(course: Path = COURSE, originals: Path = ORIGINALS) -> list[str]:
     """
     released = json.loads(originals.read_text(encoding="utf-8"))
     state = course / KEPT / originals.name
-    before = json.loads(state.read_text(encoding="utf-8")) if state.exists() else released
+    stored = read_progress_file(state)  # {} at first, and if the file is damaged
+    before = stored or released
     sentences = []
     for name, now in released.items():
         notebook, copy = course / name, course / KEPT / name
@@ -40,9 +42,8 @@ def keep_work(course: Path = COURSE, originals: Path = ORIGINALS) -> list[str]:
                 _copy(notebook, course / NEWER / name)
                 sentences.append(f"the archive's new version of it is {NEWER}/{name}")
             _copy(copy, notebook)
-    if before != released or not state.exists():
-        state.parent.mkdir(exist_ok=True)
-        shutil.copyfile(originals, state)
+    if stored != released:
+        _copy(originals, state)
     return sentences
 
 

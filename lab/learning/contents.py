@@ -9,7 +9,7 @@ from pathlib import Path
 from ros_runtime.project import WORK
 
 CHAPTERS = WORK / "chapters"
-_ROW = re.compile(
+CHAPTER_ROW = re.compile(
     r"^\| (?P<title>\w+ \[.+?\])\((?P<file>\w+\.ipynb)\) \| (?P<minutes>\d+) \| (?P<exercises>.*) \|$"
 )
 _EXERCISE = re.compile(r"\[(?P<name>\w+)\]\(\S+\) \((?P<minutes>\d+)\)")
@@ -50,7 +50,7 @@ class Chapter:
 
 def read_contents(chapters: Path = CHAPTERS) -> list[Chapter]:
     """Return the chapters in the order of the table in README.md of their folder."""
-    rows = map(_ROW.match, (chapters / "README.md").read_text(encoding="utf-8").splitlines())
+    rows = map(CHAPTER_ROW.match, (chapters / "README.md").read_text(encoding="utf-8").splitlines())
     return [
         Chapter(
             title=re.sub(r"[\[\]]", "", row["title"]),

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from autograder.engine.exercise import all_names
-from lab.learning.contents import Chapter, read_contents
+from lab.learning.contents import CHAPTER_ROW, Chapter, read_contents
 from ros_runtime.course_error import CourseError
 
 _NUMBER = re.compile(r"0*(\w+?)(_.*)?(\.ipynb)?")  # of "7", "07" and "07_cancel_and_preempt.ipynb"
@@ -45,8 +45,8 @@ class Part:
         return "".join(f"{self._row(line)}\n" for line in lines if self._is_listed(line))
 
     def _is_listed(self, line: str) -> bool:
-        named = re.match(r"\| \w+ \[.+?\]\((\w+)\.ipynb\) \|", line)
-        return not named or self.chapters is None or named[1] in self.chapters
+        row = CHAPTER_ROW.match(line)
+        return not row or self.chapters is None or Path(row["file"]).stem in self.chapters
 
     def _row(self, line: str) -> str:
         return _LINK.sub(lambda link: link[0] if link[1] in self.exercises else f"{link[1]}, not yet", line)

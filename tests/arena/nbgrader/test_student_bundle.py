@@ -294,3 +294,15 @@ manager.save(model, "exercises/patterns/patterns.ipynb")
         [sys.executable, "-c", program, str(course)], cwd=course / TOOLKIT, env=environment, check=True
     )
     assert " mine" in (course / ".kept/exercises/patterns/patterns.ipynb").read_text()
+
+
+def test_a_damaged_record_of_the_release_loses_no_work(unpacked, tmp_path):
+    course = shutil.copytree(unpacked, tmp_path / TOP)
+    originals, notebook = course / TOOLKIT / "originals.json", course / "exercises/patterns/patterns.ipynb"
+    notebook.write_text("mine")
+    keep_work(course, originals)
+    (course / ".kept/originals.json").write_text("{")
+    shutil.copyfile(unpacked / "exercises/patterns/patterns.ipynb", notebook)
+    (sentence,) = keep_work(course, originals)
+    assert "is as you left it" in sentence
+    assert notebook.read_text() == "mine"
