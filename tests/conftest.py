@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import subprocess
 from collections import Counter
 from pathlib import Path
 
@@ -30,12 +29,6 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="skip the known submissions whose grading has not begun after so long",
     )
     parser.addoption(
-        "--a-third-of-the-faulty",
-        action="store_true",
-        help="grade every third of the faulty known submissions, beginning at the number of the commit: three commits "
-        "in a row grade all of them",
-    )
-    parser.addoption(
         "--long-fuzz",
         action="store_true",
         help="try a thousand times as many inputs in tests/fast/fuzz; --hypothesis-seed chooses them",
@@ -54,25 +47,11 @@ def pytest_configure() -> None:
         raise pytest.UsageError(f"{', '.join(stray)}: belongs to no tier; move it below one of {folders}")
 
 
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if item.path.is_relative_to(TESTS):
             item.add_marker(tier_of(item.path))
     items.sort(key=lambda item: turn_of(item.path))
-    if config.getoption("a_third_of_the_faulty"):
-        faulty = [item for item in items if "test_audit.py::" in item.nodeid and "/faulty/" in item.nodeid]
-        chosen = faulty[number_of_the_commit() % 3 :: 3]
-        left_out = set(faulty) - set(chosen)
-        items[:] = [item for item in items if item not in left_out]
-        config.hook.pytest_deselected(items=list(left_out))
-
-
-def number_of_the_commit() -> int:
-    """How many commits lead to what is checked out; 0 where that cannot be known."""
-    counted = subprocess.run(
-        ["git", "rev-list", "--count", "HEAD"], cwd=TESTS, capture_output=True, text=True
-    )
-    return int(counted.stdout) if counted.returncode == 0 else 0
 
 
 def turn_of(file: Path) -> int:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ros_runtime.project import PROJECT
 
-# The checks and the engine, the robot, the clock and the interfaces.
+# Folders whose files can change a verdict: the engine, the robot, the clock and the interfaces.
 JUDGING_FOLDERS = ("autograder", "robot_sim", "ros_runtime", "humanoid_interfaces")
 WITHOUT_INFLUENCE = ("autograder/classroom", "autograder/recording", "autograder/report")
 HIDDEN_CHECKS = "autograder/classroom/hidden_checks"  # the only part of classroom/ that has influence

@@ -15,7 +15,7 @@ from autograder.arena.offering import FLOOD_TIMEOUT, QUIET_TIME, Offering
 
 
 class Kept:
-    """Stands for a log and a graph; at each poll the log has received a given number of messages."""
+    """A test double of a log and a graph, with the number of messages that the log has received at each poll."""
 
     def __init__(self, received: Iterator[int]) -> None:
         self._received = received
