@@ -6,7 +6,6 @@ The arena's own events are defined here and in `scripted_events`; those of its c
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, Literal
 
 from autograder.arena.scripted_events import *  # noqa: F403
@@ -15,19 +14,16 @@ from ros_runtime.record.event import Event
 from ros_runtime.record.ground_truth import *  # noqa: F403
 
 
-@dataclass(frozen=True, kw_only=True)
 class NodeStarted(Event):
     """The student's process was started."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class NodeReady(Event):
     """The endpoints the scenario waits for are matched; `waited` s after the node was started."""
 
     waited: float
 
 
-@dataclass(frozen=True, kw_only=True)
 class NodeNotReady(Event):
     """Endpoints never appeared: `missing` names them, `offered` lists what there is instead, as 'name [type]'."""
 
@@ -36,7 +32,6 @@ class NodeNotReady(Event):
     waited: float
 
 
-@dataclass(frozen=True, kw_only=True)
 class NodeOutput(Event):
     """A line the student's process printed."""
 
@@ -44,35 +39,30 @@ class NodeOutput(Event):
     text: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class NodeTyped(Event):
     """The scenario typed a line on the student's stdin; None: it ended the input, as Ctrl-D does."""
 
     line: str | None
 
 
-@dataclass(frozen=True, kw_only=True)
 class NodeSignalled(Event):
     """The scenario sent the student's process a signal."""
 
     signal: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class NodeExited(Event):
     """The student's process ended by itself or by a signal (negative)."""
 
     returncode: int
 
 
-@dataclass(frozen=True, kw_only=True)
 class NodeKilled(Event):
     """The student's processes were ended because they exceeded a limit."""
 
     reason: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class ArenaOverfull(Event):
     """The controller ended the arena: student, robot and grader together exceeded its memory limit.
 
@@ -83,7 +73,6 @@ class ArenaOverfull(Event):
     limit_mib: int
 
 
-@dataclass(frozen=True, kw_only=True)
 class NodeUsage(Event):
     """Processor time and memory of the student's program and all its child processes.
 
@@ -103,7 +92,6 @@ class NodeUsage(Event):
     burst: float = 0.0
 
 
-@dataclass(frozen=True, kw_only=True)
 class NodeTopics(Event):
     """Full names of the topics that nodes other than robot and grader publish and subscribe to.
 
@@ -114,7 +102,6 @@ class NodeTopics(Event):
     subscribes: list[str]
 
 
-@dataclass(frozen=True, kw_only=True)
 class NodeStack(Event):
     """Stack traces of a student's program that did not answer or exit and was ended; printed by faulthandler.
 
@@ -124,7 +111,6 @@ class NodeStack(Event):
     lines: list[str]
 
 
-@dataclass(frozen=True, kw_only=True)
 class MessageReceived(Event):
     """The student's node published a message on a topic that the grader subscribes to."""
 
@@ -132,14 +118,12 @@ class MessageReceived(Event):
     message: Any
 
 
-@dataclass(frozen=True, kw_only=True)
 class WokenLate(Event):
     """A sleep of the agent took `late` s longer than requested: the longest delay so far."""
 
     late: float
 
 
-@dataclass(frozen=True, kw_only=True)
 class Starved(Event):
     """Processor time (s) that the student's program missed because other programs occupied the processors.
 
@@ -150,21 +134,18 @@ class Starved(Event):
     altogether: float = 0.0
 
 
-@dataclass(frozen=True, kw_only=True)
 class Mark(Event):
     """A moment that the scenario names, so that checks can refer to it."""
 
     name: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class StepsPlanned(Event):
     """The scenario's steps in words, in their order."""
 
     words: list[str]
 
 
-@dataclass(frozen=True, kw_only=True)
 class PhaseEnded(Event):
     """What a phase of the arena cost, where that is measured: wall and processor time of all its processes (s)."""
 
@@ -173,19 +154,16 @@ class PhaseEnded(Event):
     cpu: float
 
 
-@dataclass(frozen=True, kw_only=True)
 class ScenarioEnded(Event):
     """The scenario ran to its end."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class ScenarioFailed(Event):
     """The scenario could not be carried out, through no fault of the student's."""
 
     reason: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class RecordDropped(Event):
     """`count` events of the kind `what`, caused by the student's processes, were dropped.
 
@@ -197,7 +175,6 @@ class RecordDropped(Event):
     seconds: float
 
 
-@dataclass(frozen=True, kw_only=True)
 class GraphFlooded(Event):
     """The ROS graph had too many nodes, an invalid name, or made queries fail; `nodes` is the number of nodes."""
 
@@ -205,7 +182,6 @@ class GraphFlooded(Event):
     reason: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class CommandSent(Event):
     """The scenario sent the robot a command; RobotCommanded with the same command follows when it takes effect."""
 

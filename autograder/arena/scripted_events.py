@@ -5,13 +5,11 @@ Messages are ROS messages. `server` names who offers something, since two server
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 from ros_runtime.record.event import Event
 
 
-@dataclass(frozen=True, kw_only=True)
 class ServiceOffered(Event):
     """The grader began to offer a scripted service; `server` names it, `type` is the ROS name of its type."""
 
@@ -20,7 +18,6 @@ class ServiceOffered(Event):
     type: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class ServiceWithdrawn(Event):
     """A scripted service ceased to exist, together with the requests it was working on."""
 
@@ -28,7 +25,6 @@ class ServiceWithdrawn(Event):
     server: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class RequestReceived(Event):
     """A request of the student's client reached a scripted service."""
 
@@ -38,7 +34,6 @@ class RequestReceived(Event):
     message: Any
 
 
-@dataclass(frozen=True, kw_only=True)
 class ReplySent(Event):
     """A scripted service answered a request."""
 
@@ -46,7 +41,6 @@ class ReplySent(Event):
     response: Any
 
 
-@dataclass(frozen=True, kw_only=True)
 class MessagePublished(Event):
     """The grader published a message; `subscriptions` is the number of matched subscriptions at that time."""
 
@@ -55,7 +49,6 @@ class MessagePublished(Event):
     subscriptions: int
 
 
-@dataclass(frozen=True, kw_only=True)
 class ActionOffered(Event):
     """The grader began to offer a scripted action; `type` is the ROS name of its type."""
 
@@ -64,7 +57,6 @@ class ActionOffered(Event):
     type: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class ActionWithdrawn(Event):
     """A scripted action ceased to exist, with its goals."""
 
@@ -72,7 +64,6 @@ class ActionWithdrawn(Event):
     server: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class GoalReceived(Event):
     """A goal of the student's client reached a scripted action; `message` is the action's Goal."""
 
@@ -82,7 +73,6 @@ class GoalReceived(Event):
     message: Any
 
 
-@dataclass(frozen=True, kw_only=True)
 class GoalReplySent(Event):
     """A scripted action accepted or rejected a goal."""
 
@@ -90,7 +80,6 @@ class GoalReplySent(Event):
     accepted: bool
 
 
-@dataclass(frozen=True, kw_only=True)
 class FeedbackSent(Event):
     """A scripted action published feedback for a goal."""
 
@@ -98,7 +87,6 @@ class FeedbackSent(Event):
     feedback: Any
 
 
-@dataclass(frozen=True, kw_only=True)
 class CancelReceived(Event):
     """The student's client requested to cancel `goal`; empty: every goal."""
 
@@ -108,7 +96,6 @@ class CancelReceived(Event):
     goal: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class CancelReplySent(Event):
     """A scripted action answered a cancel; `return_code` is of action_msgs/CancelGoal, `canceling` names goals."""
 
@@ -117,7 +104,6 @@ class CancelReplySent(Event):
     canceling: list[str]
 
 
-@dataclass(frozen=True, kw_only=True)
 class GoalFinished(Event):
     """A scripted action ended a goal; `status` is of action_msgs/GoalStatus."""
 
@@ -126,21 +112,18 @@ class GoalFinished(Event):
     result: Any
 
 
-@dataclass(frozen=True, kw_only=True)
 class ResultRequested(Event):
     """The student's client requested the result of a goal."""
 
     goal: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class ResultSent(Event):
     """A scripted action answered a request for a result."""
 
     goal: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class ResultForgotten(Event):
     """A scripted action dropped a goal and its result after `GoalScript.kept_for`."""
 

@@ -25,14 +25,12 @@ from ros_runtime.record.event import Event
 NOTEBOOK, ROBOT = "notebook", "robot"
 
 
-@dataclass(frozen=True, kw_only=True)
 class ModeChanged(Event):
     """The mode that the robot publishes has changed; `mode` is a constant of humanoid_interfaces/RobotState."""
 
     mode: int
 
 
-@dataclass(frozen=True, kw_only=True)
 class GaveUp(Event):
     """The notebook received no answer to a request within `timeout` s."""
 

@@ -5,13 +5,11 @@ Each request, goal and cancel request has a name. The events of its answer, feed
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, Literal
 
 from ros_runtime.record.event import Event
 
 
-@dataclass(frozen=True, kw_only=True)
 class ServiceCalled(Event):
     """A request was sent."""
 
@@ -20,7 +18,6 @@ class ServiceCalled(Event):
     request: Any
 
 
-@dataclass(frozen=True, kw_only=True)
 class ServiceAnswered(Event):
     """The response to a request was received."""
 
@@ -28,7 +25,6 @@ class ServiceAnswered(Event):
     response: Any
 
 
-@dataclass(frozen=True, kw_only=True)
 class GoalSent(Event):
     """A goal was sent; `request` is the action's Goal."""
 
@@ -37,7 +33,6 @@ class GoalSent(Event):
     request: Any
 
 
-@dataclass(frozen=True, kw_only=True)
 class GoalAnswered(Event):
     """The server accepted or rejected a goal."""
 
@@ -45,7 +40,6 @@ class GoalAnswered(Event):
     accepted: bool
 
 
-@dataclass(frozen=True, kw_only=True)
 class FeedbackReceived(Event):
     """The server published feedback for a goal."""
 
@@ -53,7 +47,6 @@ class FeedbackReceived(Event):
     feedback: Any
 
 
-@dataclass(frozen=True, kw_only=True)
 class StatusSeen(Event):
     """The goal's status on the action's status topic changed (action_msgs/GoalStatus)."""
 
@@ -61,7 +54,6 @@ class StatusSeen(Event):
     status: int
 
 
-@dataclass(frozen=True, kw_only=True)
 class CancelSent(Event):
     """The client `by` sent a cancel request; an empty `goal` means that it requested to cancel every goal."""
 
@@ -70,7 +62,6 @@ class CancelSent(Event):
     by: str
 
 
-@dataclass(frozen=True, kw_only=True)
 class CancelAnswered(Event):
     """The server answered a cancel request; `canceling` names the goals that it agreed to cancel.
 
@@ -82,7 +73,6 @@ class CancelAnswered(Event):
     canceling: list[str]
 
 
-@dataclass(frozen=True, kw_only=True)
 class ResultReceived(Event):
     """A goal ended and its result was received; `status` is a constant of action_msgs/GoalStatus."""
 
@@ -91,7 +81,6 @@ class ResultReceived(Event):
     result: Any
 
 
-@dataclass(frozen=True, kw_only=True)
 class TooLarge(Event):
     """A message of a student's program had more `bytes` than the `limit`, and was not read.
 
@@ -104,7 +93,6 @@ class TooLarge(Event):
     limit: int
 
 
-@dataclass(frozen=True, kw_only=True)
 class Unanswered(Event):
     """After `waited` s the client stopped waiting: for an answer, for a result, or for the end of a program."""
 

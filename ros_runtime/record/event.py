@@ -9,14 +9,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
+from typing_extensions import dataclass_transform  # in typing since Python 3.11
+
 from ros_runtime.messages import is_message, to_dict, type_name
 
 
+@dataclass_transform(frozen_default=True, kw_only_default=True)
 @dataclass(frozen=True, kw_only=True)
 class Event:
     """Something that happened at `t` (s, `time.monotonic()` of the process that observed it; by default now).
 
-    `kind` is the name of the class in snake case.
+    Subclasses are dataclasses, too. `kind` is the name of the class in snake case.
     """
 
     kind: ClassVar[str]
@@ -24,6 +27,7 @@ class Event:
 
     def __init_subclass__(cls) -> None:
         cls.kind = re.sub(r"(?<!^)(?=[A-Z])", "_", cls.__name__).lower()
+        dataclass(frozen=True, kw_only=True)(cls)
 
 
 def to_line(event: Event) -> bytes:

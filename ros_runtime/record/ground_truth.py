@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 from ros_runtime.record.event import Event
 
 
-@dataclass(frozen=True, kw_only=True)
 class RobotReady(Event):
     """The robot stands and its topics exist."""
 
 
-@dataclass(frozen=True, kw_only=True)
 class RobotTruth(Event):
     """The simulator's state of the robot (50 Hz): base_link in odom (m, rad), speed over ground (m/s).
 
@@ -36,7 +33,6 @@ class RobotTruth(Event):
     battery: float
 
 
-@dataclass(frozen=True, kw_only=True)
 class BodyDescribed(Event):
     """The names of the joints and objects in PostureTruth, in the order of its lists; only in recorded runs.
 
@@ -48,7 +44,6 @@ class BodyDescribed(Event):
     objects: list[str]
 
 
-@dataclass(frozen=True, kw_only=True)
 class PostureTruth(Event):
     """The whole posture of the robot (25 Hz); only in recorded runs, for films. Checks have no access to it.
 
@@ -63,14 +58,12 @@ class PostureTruth(Event):
     objects: list[list[float]]
 
 
-@dataclass(frozen=True, kw_only=True)
 class BatteryPublished(Event):
     """The robot published `message` on battery_state: a sensor_msgs/BatteryState."""
 
     message: Any
 
 
-@dataclass(frozen=True, kw_only=True)
 class JointsPublished(Event):
     """The robot published a message on joint_states: a position for each name, rad (fingers: m)."""
 
@@ -78,7 +71,6 @@ class JointsPublished(Event):
     positions: list[float]
 
 
-@dataclass(frozen=True, kw_only=True)
 class ImuPublished(Event):
     """The robot published this on imu. Also the gyro's true bias: rad/s about x, y and z of imu_link."""
 
@@ -86,7 +78,6 @@ class ImuPublished(Event):
     gyro_bias: list[float]
 
 
-@dataclass(frozen=True, kw_only=True)
 class JointsTruth(Event):
     """True positions and velocities of the joints that a scenario has requested (50 Hz), rad and rad/s."""
 
@@ -94,7 +85,6 @@ class JointsTruth(Event):
     velocities: dict[str, float]
 
 
-@dataclass(frozen=True, kw_only=True)
 class FeetTruth(Event):
     """True load on each foot, N, if a scenario has requested it (50 Hz)."""
 
@@ -102,7 +92,6 @@ class FeetTruth(Event):
     right: float
 
 
-@dataclass(frozen=True, kw_only=True)
 class HandTruth(Event):
     """State of a hand that a scenario has requested (50 Hz): the point between its pads, m in odom.
 
@@ -115,7 +104,6 @@ class HandTruth(Event):
     forces: list[float]
 
 
-@dataclass(frozen=True, kw_only=True)
 class ObjectTruth(Event):
     """State of an object that a scenario has requested (50 Hz): its centre, m in odom.
 
@@ -128,7 +116,6 @@ class ObjectTruth(Event):
     speed: float
 
 
-@dataclass(frozen=True, kw_only=True)
 class ArmReported(Event):
     """Positions of an arm's elbow and hand (between the fingers): m from its shoulder, along the torso's x, y and z."""
 
@@ -137,7 +124,6 @@ class ArmReported(Event):
     hand: list[float]
 
 
-@dataclass(frozen=True, kw_only=True)
 class RobotPeers(Event):
     """How many subscribers and publishers of other nodes the robot is connected to, by topic."""
 
@@ -145,7 +131,6 @@ class RobotPeers(Event):
     publishers: dict[str, int]
 
 
-@dataclass(frozen=True, kw_only=True)
 class RobotCommanded(Event):
     """A command of the scenario took effect in the simulator."""
 
@@ -157,14 +142,12 @@ class RobotCommanded(Event):
         return str(self.command.get("do", "")).replace("_", " ")
 
 
-@dataclass(frozen=True, kw_only=True)
 class MotorPowerReceived(Event):
     """The robot received a message on motor_power; in a flood only the first ones are recorded."""
 
     on: bool
 
 
-@dataclass(frozen=True, kw_only=True)
 class RobotRefused(Event):
     """The robot refused messages of a topic: `count` so far, the `bytes` of the largest, and the `limit` for each."""
 
