@@ -26,6 +26,7 @@ from ros_runtime.project import COURSE, PROJECT
 HELP = "Learn ROS 2 services and actions on a humanoid that really balances."
 FORWARDING = {"ignore_unknown_options": True, "allow_extra_args": True}
 FOR_EVERYBODY, FOR_INSTRUCTORS = "course_cli.commands", "autograder.classroom.commands"
+FOR_DEVELOPERS = "developer"  # in tests/, which only a clone has
 UTF8_VARIABLE = "PYTHONUTF8"  # read by Python and inherited by its child processes
 
 
@@ -35,7 +36,7 @@ class Command:
 
     Attributes:
         summary: the command's line in `course --help`.
-        folder: the package with the command's module; the students' archive does not contain the instructors' package.
+        folder: the package with the command's module; the students' archive has only the first of the three packages.
         forwards_arguments: the command passes unknown arguments, in typer.Context.args, to another program.
         forwards_help: the command also passes --help to that program.
     """
@@ -75,9 +76,9 @@ COMMANDS: dict[str, Command] = {
     "release": Command("Write the students' archive.", FOR_INSTRUCTORS),
     "audit": Command("Grade submissions with known faults.", FOR_INSTRUCTORS),
     "book": Command("Make a site for readers of the chapters, exercises and docs.", FOR_INSTRUCTORS),
-    "bench": Command("Print the performance table.", FOR_INSTRUCTORS),
+    "bench": Command("Print the performance table.", FOR_DEVELOPERS),
     "test": Command(
-        "Run the tests, all or by tier.", FOR_INSTRUCTORS, forwards_arguments=True, forwards_help=False
+        "Run the tests, all or by tier.", FOR_DEVELOPERS, forwards_arguments=True, forwards_help=False
     ),
 }
 
@@ -102,6 +103,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     processes, such as students' nodes. Therefore the default handler of SIGINT is restored first.
     """
     signal.signal(signal.SIGINT, signal.default_int_handler)
+    sys.path.append(str(PROJECT / "tests"))  # the commands for developers, and what they use
     if arguments is None:
         _require_utf8()
     arguments = sys.argv[1:] if arguments is None else list(arguments)

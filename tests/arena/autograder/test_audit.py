@@ -17,9 +17,9 @@ import pytest
 from audited.proof import enough_to_catch, enough_to_prove
 from autograder.classroom.audit.known_submission import known_submissions
 from autograder.classroom.audit.run import SharedArenas, audit_one
-from autograder.classroom.commands.test import LOST_POINTS
 from autograder.engine.exercise import exercise_names, load_exercise
 from autograder.isolation.availability import available_isolation
+from developer.test import LOST_POINTS
 
 ARENAS_AT_A_TIME = 3  # two processors: an arena waits for its own clock two thirds of the time
 EXERCISES = {name: load_exercise(name, hidden=True) for name in exercise_names()}

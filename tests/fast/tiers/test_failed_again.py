@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from autograder.classroom.commands.test import pass_alone, run_pytest
+from developer.test import LOST_POINTS, pass_alone, run_pytest
 
 FAILS_AT_FIRST = """
 from pathlib import Path
@@ -20,13 +20,11 @@ def test_at_first():
     assert len(Path("tries").read_text()) >= {needed}
 """
 OF_A_CORRECT_ONE = """
-from autograder.classroom.commands.test import LOST_POINTS
-
 def test_verdict(request):
     first = request.config.cache.get("seen", None) is None
     request.config.cache.set("seen", True)
     if {lost} and first:
-        request.config.cache.set(LOST_POINTS, "walk_to/correct/plain")
+        request.config.cache.set({key!r}, "walk_to/correct/plain")
     assert not first
 """
 
@@ -49,7 +47,7 @@ def test_failed_tests_run_again_without_the_others(
 
 @pytest.mark.parametrize("lost", [True, False])
 def test_a_point_that_a_correct_submission_lost_is_a_failure_at_once(tmp_path: Path, lost: bool) -> None:
-    (tmp_path / "test_audit.py").write_text(OF_A_CORRECT_ONE.format(lost=lost))
+    (tmp_path / "test_audit.py").write_text(OF_A_CORRECT_ONE.format(lost=lost, key=LOST_POINTS))
     assert not run_pytest([], tmp_path)
     assert pass_alone([], tmp_path) is not lost
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from autograder.classroom.commands.test import TIERS, pytest_arguments
+from developer.test import TIERS, pytest_arguments
 
 ROOT = Path(__file__).resolve().parents[3]
 TEST_FILE = "def test_sample():\n    pass\n"

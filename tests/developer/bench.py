@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -12,7 +11,6 @@ from rich.console import Console
 from autograder.engine.exercise import exercise_names, load_exercise
 from course_cli.ending import UNUSABLE, error_exit
 from course_cli.options import JobsOption
-from ros_runtime.project import PROJECT
 
 ALL = "all"
 
@@ -56,7 +54,6 @@ def bench(
     quick: Annotated[bool, typer.Option("--quick", help="with --trial: a few runs of each")] = False,
 ) -> None:
     """Print the performance table."""
-    sys.path.append(str(PROJECT / "tests"))  # tests/bench has the measurements
     from bench.arena.check_table import bench_checks
     from bench.arena.tables import bench_arenas
     from bench.overview import bench_overview

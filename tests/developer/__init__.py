@@ -1,0 +1,1 @@
+"""The commands for developers of the toolkit, which only a clone has."""
