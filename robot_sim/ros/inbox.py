@@ -12,6 +12,8 @@ from typing import Any
 from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 
+from ros_runtime.record.ground_truth import RobotRefused
+
 LARGEST_FIXED_SIZE = 64  # bytes, more than any message of fixed length that the robot subscribes to
 MESSAGES_A_SECOND = 200  # per second of simulated time; after a pause, as many are accepted at once
 # Per second of simulated time. The largest trajectory is a little smaller; it takes 10 ms of processor time.
@@ -19,9 +21,6 @@ BYTES_A_SECOND = 400_000
 REPORT_PERIOD = 0.25  # s of simulated time between two reports on a topic
 
 FLOOD = f"more than {MESSAGES_A_SECOND} messages or {BYTES_A_SECOND} bytes a second"
-
-Report = Callable[[str, int, int, int, str], None]
-"""Takes a topic, how many of its messages were refused, the bytes of the largest, the limit, and the reason."""
 
 
 class Inbox:
@@ -38,7 +37,7 @@ class Inbox:
     def __init__(
         self,
         subscription: Subscription,
-        report: Report | None = None,
+        report: Callable[[RobotRefused], object] | None = None,
         *,
         most_bytes: int = LARGEST_FIXED_SIZE,
         why_not: Callable[[bytes], str] = lambda _: "",
@@ -83,7 +82,8 @@ class Inbox:
         """Report what has not been reported yet."""
         for reason, tally in self._tally.items():
             if tally.is_unreported and self._report:
-                self._report(self.topic, tally.count, tally.largest, self._most_bytes, reason)
+                sizes = {"count": tally.count, "bytes": tally.largest, "limit": self._most_bytes}
+                self._report(RobotRefused(topic=self.topic, reason=reason, **sizes))
             tally.is_unreported = False
 
     def _may_take(self) -> bool:

@@ -28,6 +28,7 @@ from robot_sim.ros.messages import floats, has_subscribers, set_fields
 from robot_sim.ros.periodic_jobs import PeriodicJobs
 from robot_sim.ros.trajectory_size import MOST_BYTES, why_too_large
 from robot_sim.walking.balance_gains import BalanceGains
+from ros_runtime.record.ground_truth import BatteryPublished, ImuPublished, JointsPublished, RobotPeers
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 CMD_VEL_TIMEOUT = 0.5  # s; an older command stops the robot
@@ -80,7 +81,7 @@ class HumanoidNode(Node):
         feet = FootTopics(self, humanoid)
         ArmIkService(self, humanoid)
         self._joint_limits = publish_joint_limits(self, humanoid.model, LATCHED)
-        report = ground_truth.refused if ground_truth else None
+        report = ground_truth.write if ground_truth else None
         subscriptions = (
             self.create_subscription(Twist, "cmd_vel", self._on_velocity, 10),
             self.create_subscription(Bool, "motor_power", self._on_motor_power, 10),
@@ -236,7 +237,9 @@ class HumanoidNode(Node):
         message.effort = floats(joints.effort[order])
         self._read_clock()
         if self._ground_truth:  # before others can answer with it
-            self._ground_truth.joints_published(message.name, message.position)
+            self._ground_truth.write(
+                JointsPublished(names=list(message.name), positions=list(message.position))
+            )
         self._joint_states.publish(message)
 
     def _publish_imu(self) -> None:
@@ -245,7 +248,8 @@ class HumanoidNode(Node):
         sample, message = self.humanoid.imu(), self._imu_message
         self._read_clock()
         if self._ground_truth:  # before others can answer with it
-            self._ground_truth.imu_published(sample.angular_velocity.tolist(), self.humanoid.gyro_bias)
+            rates, bias = sample.angular_velocity.tolist(), list(self.humanoid.gyro_bias)
+            self._ground_truth.write(ImuPublished(angular_velocity=rates, gyro_bias=bias))
         set_fields(message.orientation, "xyzw", sample.orientation.tolist())
         set_fields(message.angular_velocity, "xyz", sample.angular_velocity.tolist())
         set_fields(message.linear_acceleration, "xyz", sample.linear_acceleration.tolist())
@@ -277,7 +281,7 @@ class HumanoidNode(Node):
         self._read_clock()
         self._battery_state.publish(message)
         if self._ground_truth:
-            self._ground_truth.battery_published(message)
+            self._ground_truth.write(BatteryPublished(message=message))
 
     def _publish_robot_state(self) -> None:
         mode, motors_enabled, steps = self._last_announced = self._announcement()
@@ -303,18 +307,16 @@ class HumanoidNode(Node):
         """Write changes of connections to the ground truth, so that a scenario can wait for discovery."""
         if self._ground_truth is None:
             return
-        publishers = (
+        topics = (
             *(self._joint_states, self._imu, self._odom),
             *(self._battery_state, self._robot_state, self._joint_limits),
         )
-        peers = (
-            {publisher.topic_name: publisher.get_subscription_count() for publisher in publishers},
-            # Node.count_publishers would expand and validate each name every time.
-            {topic: self.handle.get_count_publishers(topic) for topic in self._command_topics},
-        )
-        if peers != self._peers:
-            self._peers = peers
-            self._ground_truth.peers(*peers)
+        subscribers = {topic.topic_name: topic.get_subscription_count() for topic in topics}
+        # Node.count_publishers would expand and validate each name every time.
+        publishers = {topic: self.handle.get_count_publishers(topic) for topic in self._command_topics}
+        if (subscribers, publishers) != self._peers:
+            self._peers = subscribers, publishers
+            self._ground_truth.write(RobotPeers(subscribers=subscribers, publishers=publishers))
 
     def _read_clock(self) -> None:
         """Set the stamp that all messages share to the system clock plus `clock_offset`."""

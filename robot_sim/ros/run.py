@@ -15,6 +15,7 @@ from robot_sim.ros.pacing import Pacing
 from robot_sim.ros.periodic_jobs import TOLERANCE, PeriodicJobs
 from robot_sim.ros.scenario_control import ScenarioControl, apply_command
 from robot_sim.ros.services import Services
+from ros_runtime.record.ground_truth import RobotCommanded, RobotReady
 
 if TYPE_CHECKING:  # arenas need neither of these modules
     from robot_sim.ros.sim_controls import SimControls
@@ -58,7 +59,7 @@ def run(
     gc.freeze()  # otherwise each garbage collection would scan the present objects, which live until the end
     cycles_since_wait = 0
     if ground_truth:
-        ground_truth.ready()
+        ground_truth.write(RobotReady())
     pacing.restart(humanoid.time)
     while is_running():
         if control:
@@ -67,7 +68,7 @@ def run(
                 apply_command(command, humanoid, node, ground_truth)
                 pacing.restart(humanoid.time)
                 if ground_truth:
-                    ground_truth.commanded(command)
+                    ground_truth.write(RobotCommanded(command=command))
         if controls and controls.take_reset():
             apply_command({"do": "reset"}, humanoid, node)
             pacing.restart(humanoid.time)

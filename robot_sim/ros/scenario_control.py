@@ -5,11 +5,19 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterator
+from functools import partial
 
 from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.side import Side
-from robot_sim.ros.ground_truth import GroundTruthWriter
+from robot_sim.ros.ground_truth import (
+    GroundTruthWriter,
+    arm_report,
+    feet_truth,
+    hand_truth,
+    joints_reader,
+    object_truth,
+)
 from robot_sim.ros.node import HumanoidNode
 
 COMMANDS = (
@@ -81,17 +89,17 @@ def apply_command(
             goal = Waypoint(duration, tuple(positions.values()))
             humanoid.move_joints(JointTrajectory(tuple(positions), (goal,)))
         case {"do": "report_arm", "side": side} if ground_truth:
-            ground_truth.arm(humanoid, Side.of_letter(side))
+            ground_truth.write(arm_report(humanoid, Side.of_letter(side)))
         case {"do": "report_joints", "names": names} if ground_truth:
-            ground_truth.report_joints(humanoid, names)
+            ground_truth.report("joints", joints_reader(humanoid, names))
         case {"do": "report_feet"} if ground_truth:
-            ground_truth.report_feet(humanoid)
+            ground_truth.report("feet", partial(feet_truth, humanoid))
         case {"do": "move_body", "rate": rate}:
             humanoid.move_body(rate)
         case {"do": "report_hand", "side": side} if ground_truth:
-            ground_truth.report_hand(humanoid, Side.of_letter(side))
+            ground_truth.report(f"hand {side}", partial(hand_truth, humanoid, Side.of_letter(side)))
         case {"do": "report_object", "name": name} if ground_truth:
-            ground_truth.report_object(humanoid, name)
+            ground_truth.report(f"object {name}", partial(object_truth, humanoid, name))
         case {"do": "move_object", "name": name, "position": position}:
             humanoid.move_object(name, position)
         case {"do": "hold_joint", "joint": joint}:

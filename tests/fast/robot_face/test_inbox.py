@@ -23,7 +23,10 @@ class Topic:
         subscription = SimpleNamespace(
             topic_name="/robot/topic", msg_type=kind, callback=self.received.append, handle=self
         )
-        self.inbox = Inbox(subscription, lambda *report: self.reports.append(report), **limits)
+        self.inbox = Inbox(subscription, self.report, **limits)
+
+    def report(self, refused):
+        self.reports.append((refused.topic, refused.count, refused.bytes, refused.limit, refused.reason))
 
     def take_message(self, kind, raw):
         assert raw, "the inbox must request bytes"
@@ -153,10 +156,13 @@ def test_messages_are_processed_after_time_has_gone_back():
 
 def test_a_refused_message_is_written_to_the_ground_truth(tmp_path):
     with open(tmp_path / "truth", "w+b") as file:
-        GroundTruthWriter(file.fileno()).refused("/robot/cmd_vel", 7, 4000, 64, "malformed")
+        inbox = Topic(Twist).inbox
+        inbox._report = GroundTruthWriter(file.fileno()).write
+        inbox.process(b"short")
+        inbox.report()
         file.seek(0)
         event = parse_event(file.readline())
     assert isinstance(event, RobotRefused)
     assert event == RobotRefused(
-        t=event.t, topic="/robot/cmd_vel", count=7, bytes=4000, limit=64, reason="malformed"
+        t=event.t, topic="/robot/topic", count=1, bytes=5, limit=64, reason="malformed"
     )
