@@ -12,7 +12,6 @@ import numpy as np
 from robot_sim.arms.hand import Hand
 from robot_sim.arms.joint_brakes import BRAKE_TORQUE, JointBrakes
 from robot_sim.arms.joint_trajectory import HOLD, JointTrajectory
-from robot_sim.arms.reach import HandTarget, Reach
 from robot_sim.arms.upper_body import UpperBody
 from robot_sim.battery import Battery
 from robot_sim.model.build import build_model
@@ -26,13 +25,11 @@ from robot_sim.push import Pusher
 from robot_sim.rest import Rest
 from robot_sim.sensors.foot_sensor import FootSensor
 from robot_sim.sensors.imu import Imu
-from robot_sim.sensors.state_estimate import StateEstimate
 from robot_sim.state import BasePose, BaseVelocity, ImuSample, JointState, Mode, ObjectPose
 from robot_sim.walking.balance_gains import BalanceGains, trunk_of
 from robot_sim.walking.body_height import BodyHeight, HeightLimits
 from robot_sim.walking.footsteps import Command, Goal
 from robot_sim.walking.gait import Phase
-from robot_sim.walking.height_change import HeightChange, HeightPhase
 from robot_sim.walking.planar import clamp
 from robot_sim.walking.walker import Walker
 from robot_sim.walking.walker_parameters import WalkerParameters
@@ -54,7 +51,6 @@ class Humanoid:
         seed: of the sensors' errors.
         timestep: of physics and controller, s.
         floor: what it walks on; a level plane unless given.
-        estimates_state: the controller acts on a state estimated from its sensors instead of the simulator's.
 
     Raises:
         ValueError: the scene is not known.
@@ -78,14 +74,12 @@ class Humanoid:
         seed: int = 0,
         timestep: float = 0.005,
         floor: Floor | None = None,
-        estimates_state: bool = False,
     ) -> None:
         self.scene = scene
         self.model = build_model(scene, timestep=timestep, floor=floor)
         self.data = mujoco.MjData(self.model)
         self.timestep = timestep
         self.seed = seed
-        self._estimates_state = estimates_state
         self._parameters = WalkerParameters(dimensions_of(self.model))
         self._trunk = trunk_of(self.model)
         self._limits = WalkingLimits()
@@ -119,9 +113,7 @@ class Humanoid:
 
     def _take_control(self) -> None:
         """Start the controllers from the present state of the robot."""
-        self._estimate = StateEstimate(self.model, self.data, self._imu) if self._estimates_state else None
-        state = self._estimate.data if self._estimate else self.data
-        self._walker = Walker(self.model, self.data, state, self._trunk, self._parameters)
+        self._walker = Walker(self.model, self.data, self.data, self._trunk, self._parameters)
         self._height = BodyHeight(self._walker, self._parameters.dimensions, HeightLimits())
         self._pending: Command = None
         self._upper_body = UpperBody(self.model, self.data)
@@ -133,8 +125,6 @@ class Humanoid:
             return
         mujoco.mj_step1(self.model, self.data)
         if self.motors_enabled:
-            if self._estimate:
-                self._estimate.tick(self.timestep)
             self._height.tick(self.timestep)
             if self._pending is not None and self._height.is_risen:
                 self._walker.follow(self._pending)
@@ -181,7 +171,6 @@ class Humanoid:
         """Return whether it stands without a command."""
         return (
             self.motors_enabled
-            and self._estimate is None
             and self._pending is None
             and self._walker.is_idle
             and self._height.is_idle
@@ -291,30 +280,6 @@ class Humanoid:
             if rate:
                 self._rest.wake()
 
-    def crouch_to(self, height: float) -> HeightChange:
-        """Move the pelvis to `height` (m, 0.45 to 0.60 above the floor) in phases, which end by measurements.
-
-        The returned object has the phase, the progress, and the reason of a failure: a fall, motors off, another
-        command to walk or to move the body, or a timeout.
-
-        Raises:
-            ValueError: the height is not finite.
-        """
-        change = self._height.change_to(height)
-        self._rest.wake()
-        if not self.motors_enabled:
-            change.fail("the motors are off")
-        return change
-
-    def stand_up(self) -> HeightChange:
-        """Rise from any crouch to the stance; otherwise like `crouch_to`."""
-        return self.crouch_to(self._parameters.dimensions.stance_height)
-
-    @property
-    def body_phase(self) -> HeightPhase | None:
-        """The phase of the last `crouch_to` or `stand_up` since reset; None without one."""
-        return self._height.change.phase if self._height.change else None
-
     @property
     def balance_gains(self) -> BalanceGains:
         """How stiffly the trunk is held upright; gains that are too weak or too stiff make the robot fall."""
@@ -343,15 +308,6 @@ class Humanoid:
         if self.motors_enabled:
             self.hands[side].open_to(opening)
             self._rest.wake()
-
-    def reach(self, side: Side, target: HandTarget) -> Reach:
-        """Move the hand of a side to a target in the odom frame; `error()` of the result is the distance to it.
-
-        Raises:
-            ValueError: the target is not finite.
-        """
-        self._rest.wake()
-        return self._upper_body.reach(side, target)
 
     # State
 
@@ -439,7 +395,6 @@ class Humanoid:
             return
         if command is not None:
             self._rest.wake()
-            self._height.interrupt("a command to walk came")
         if command is None or self._height.is_risen:
             self._pending = None
             self._walker.follow(command)
@@ -459,5 +414,4 @@ class Humanoid:
         else:
             self.model.opt.disableflags |= disabled
             self.data.actuator_force[:] = 0.0
-            self._height.interrupt("the robot fell" if self._fallen else "the motors went off")
         self.motors_enabled = on

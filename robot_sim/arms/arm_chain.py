@@ -7,10 +7,13 @@ import math
 import mujoco
 import numpy as np
 
-from robot_sim.arms.reach import relaxed_arm
 from robot_sim.arms.servos import RANGE_MARGIN
-from robot_sim.model.joint_names import WAIST, arm_joints
+from robot_sim.model.joint_names import ARM, WAIST, arm_joints
+from robot_sim.model.posture import on_side
 from robot_sim.model.side import Side
+
+# The posture that searches and motions prefer, with the elbow away from the body: rad, left arm; other joints 0.
+RELAXED_ARM = {"shoulder_pitch": 0.3, "shoulder_roll": 0.7, "elbow": -1.4}
 
 
 class ArmChain:
@@ -74,3 +77,8 @@ def _descendants(model: mujoco.MjModel, root: int) -> np.ndarray:
     for body in range(root + 1, model.nbody):  # a parent goes before its children
         belongs[body] = belongs[model.body_parentid[body]]
     return belongs
+
+
+def relaxed_arm(side: Side) -> list[float]:
+    """Return the positions (7,) rad of a relaxed arm, with its elbow away from the body."""
+    return [on_side(side, joint, RELAXED_ARM.get(joint, 0.0)) for joint in ARM]

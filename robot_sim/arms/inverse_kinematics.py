@@ -10,7 +10,6 @@ import numpy as np
 
 from robot_sim.arms.arm_chain import ArmChain
 from robot_sim.arms.hand import hand_rotation
-from robot_sim.arms.reach import rotation_vector
 from robot_sim.model.side import SIDES, Side
 
 LARGEST_BODY_SHIFT = 0.03  # m, largest motion of the body when it balances an arm
@@ -190,3 +189,11 @@ class _Miss:
     distance: float  # m
     angle: float  # rad
     cost: float  # m², the squared error that the solver minimizes
+
+
+def rotation_vector(start: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """Return the rotation (3,) rad, world frame, that turns rotation matrix `start` (3, 3) into `end` (3, 3)."""
+    quaternion, vector = np.empty(4), np.empty(3)
+    mujoco.mju_mat2Quat(quaternion, (end @ start.T).ravel())
+    mujoco.mju_quat2Vel(vector, quaternion, 1.0)
+    return vector

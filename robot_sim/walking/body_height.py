@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 from robot_sim.model.dimensions import Dimensions
-from robot_sim.walking.height_change import HeightChange
 from robot_sim.walking.planar import clamp
 from robot_sim.walking.walker import Walker
 
@@ -25,7 +24,6 @@ class BodyHeight:
 
     Attributes:
         rate: commanded velocity of the body, m/s, upwards.
-        change: the last change of height in phases, if any; while it lasts, `rate` is 0.
     """
 
     def __init__(self, walker: Walker, size: Dimensions, limits: HeightLimits) -> None:
@@ -33,7 +31,6 @@ class BodyHeight:
         self._limits = limits
         self._stance = size.stance_height
         self.rate = 0.0
-        self.change: HeightChange | None = None
 
     @property
     def is_risen(self) -> bool:
@@ -43,8 +40,7 @@ class BodyHeight:
     @property
     def is_idle(self) -> bool:
         """Whether no motion is commanded, or the commanded motion has ended."""
-        moves = self.rate < 0 or (self.rate > 0 and self._walker.height < self._stance)
-        return not moves and (self.change is None or self.change.phase.is_last)
+        return not (self.rate < 0 or (self.rate > 0 and self._walker.height < self._stance))
 
     def move(self, rate: float) -> None:
         """Move up at `rate` (m/s; negative: down) until the next command, within the limits of height and speed.
@@ -54,29 +50,11 @@ class BodyHeight:
         """
         if not math.isfinite(rate):
             raise ValueError(f"the rate is {rate}; expected a finite number in m/s")
-        self.interrupt("another command came")
         self.rate = clamp(rate, -self._limits.speed, self._limits.speed)
 
     def rise(self) -> None:
         """Move up to the height of the stance."""
         self.move(self._limits.speed)
-
-    def change_to(self, height: float) -> HeightChange:
-        """Move to a height (m), clamped to the limits, in phases.
-
-        Raises:
-            ValueError: the height is not finite.
-        """
-        if not math.isfinite(height):
-            raise ValueError(f"the height is {height}; expected a finite number in m")
-        self.move(0.0)
-        self.change = HeightChange(self._walker, self._within_limits(height), self._limits.speed)
-        return self.change
-
-    def interrupt(self, problem: str) -> None:
-        """End a running change as failed, with this reason; the height stays as it is."""
-        if self.change is not None:
-            self.change.fail(problem)
 
     def set(self, height: float) -> None:
         """Set the height reference (m) at once, without a motion."""
@@ -86,9 +64,6 @@ class BodyHeight:
         """Move the reference for the next `dt` (s); the body goes down only while both feet stand."""
         if self.rate > 0 or (self.rate < 0 and self._walker.stands):
             self.set(self._walker.height + self.rate * dt)
-        elif self.change is not None and not self.change.phase.is_last:
-            self.change.tick(dt)
-            self.set(self.change.height)
 
     def _within_limits(self, height: float) -> float:
         return clamp(height, self._limits.lowest, self._stance)

@@ -19,8 +19,8 @@ from bench.robot.trial import (
     summary,
     values_of,
 )
+from bench.robot.trial_humanoid import TrialHumanoid
 from robot_sim.arms.joint_trajectory import HOLD
-from robot_sim.humanoid import Humanoid
 
 SEED = 20264
 DISTANCE = 1.5  # m, from the table's edge region where the robot starts
@@ -39,7 +39,7 @@ def run(case: tuple[float, float, float]) -> Run:
     """Carry the cup once."""
     x, y, offset = case
     clock = Clock()
-    humanoid = Humanoid("table")
+    humanoid = TrialHumanoid("table")
     humanoid.reset(x=-DISTANCE)
     humanoid.data.joint("cup").qpos[:2] = x, y
     simulate(humanoid, 0.5)
@@ -73,7 +73,7 @@ def _carry_out(grasp: Grasp, offset: float) -> tuple[str, dict[str, float]]:
     return wrong, values
 
 
-def _walk(robot: Humanoid, x: float, y: float, yaw: float) -> bool:
+def _walk(robot: TrialHumanoid, x: float, y: float, yaw: float) -> bool:
     robot.walk_to(x, y, yaw)
     arrived = simulate(robot, 25.0, until=lambda: robot.arrived)
     simulate(robot, 0.6)

@@ -6,6 +6,7 @@ import math
 import random
 from collections.abc import Sequence
 
+from bench.robot.height_change import HeightChange, HeightPhase
 from bench.robot.trial import (
     Clock,
     Run,
@@ -18,8 +19,7 @@ from bench.robot.trial import (
     summary,
     values_of,
 )
-from robot_sim.humanoid import Humanoid
-from robot_sim.walking.height_change import HeightChange, HeightPhase
+from bench.robot.trial_humanoid import TrialHumanoid
 
 SEED = 20266
 STANCE = 0.60  # m, height of the pelvis
@@ -47,7 +47,7 @@ def run(case: tuple[str, float, float, float]) -> Run:
     """Crouch, rise, and walk half a metre."""
     kind, height, direction, moment = case
     clock = Clock()
-    humanoid = Humanoid()
+    humanoid = TrialHumanoid()
     push = IMPULSE[kind] * math.cos(direction), IMPULSE[kind] * math.sin(direction), 0.0
     problem, values = "", dict[str, float]()
     if kind == RATE:
@@ -63,7 +63,7 @@ def run(case: tuple[str, float, float, float]) -> Run:
     return run_of(case, humanoid, clock, note, {"error_m": error, **values})
 
 
-def _rise_at_a_rate(humanoid: Humanoid, height: float, push: Sequence[float]) -> None:
+def _rise_at_a_rate(humanoid: TrialHumanoid, height: float, push: Sequence[float]) -> None:
     """Get a push in the crouch, then rise at a rate as with cmd_vel."""
     humanoid.reset(height=height)
     simulate(humanoid, 0.5)
@@ -74,7 +74,7 @@ def _rise_at_a_rate(humanoid: Humanoid, height: float, push: Sequence[float]) ->
 
 
 def _rise_in_phases(
-    humanoid: Humanoid, height: float, push: Sequence[float], moment: float
+    humanoid: TrialHumanoid, height: float, push: Sequence[float], moment: float
 ) -> tuple[str, dict[str, float]]:
     """Crouch, rise and be pushed; return the problem, the seconds in each phase, and the repeated shifts."""
     simulate(humanoid, 0.5)
@@ -89,7 +89,7 @@ def _rise_in_phases(
 
 
 def _watch(
-    humanoid: Humanoid, change: HeightChange, times: dict[str, float], until: float = math.inf
+    humanoid: TrialHumanoid, change: HeightChange, times: dict[str, float], until: float = math.inf
 ) -> float:
     """Step until a change has ended; add up the time of its phases and count how often it shifted again."""
     again = 0

@@ -18,7 +18,7 @@ from bench.robot.trial import (
     summary,
     values_of,
 )
-from robot_sim.humanoid import Humanoid
+from bench.robot.trial_humanoid import TrialHumanoid
 
 SEED = 20265
 TIME_LIMIT = 30.0  # s
@@ -47,7 +47,7 @@ def run(case: tuple[str, float, float, float, int]) -> Run:
     """Walk once."""
     kind, x, y, other, seed = case
     clock = Clock()
-    humanoid = Humanoid(seed=seed, estimates_state=True)
+    humanoid = TrialHumanoid(seed=seed, estimates_state=True)
     simulate(humanoid, CALIBRATION)
     if kind == PUSHED:
         humanoid.walk_velocity(0.25, 0.0, 0.0)

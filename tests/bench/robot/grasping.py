@@ -7,10 +7,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from bench.robot.reach import HandTarget
 from bench.robot.trial import simulate
+from bench.robot.trial_humanoid import TrialHumanoid
 from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
-from robot_sim.arms.reach import HandTarget
-from robot_sim.humanoid import Humanoid
 from robot_sim.model.joint_names import arm_joints
 from robot_sim.model.side import Side
 
@@ -34,7 +34,7 @@ class Grasp:
         heading: rad, the way the hand points.
     """
 
-    def __init__(self, robot: Humanoid) -> None:
+    def __init__(self, robot: TrialHumanoid) -> None:
         self.robot = robot
         self.heading = 0.0
         self._hand = robot.hands[SIDE]

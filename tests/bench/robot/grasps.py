@@ -19,7 +19,7 @@ from bench.robot.trial import (
     summary,
     values_of,
 )
-from robot_sim.humanoid import Humanoid
+from bench.robot.trial_humanoid import TrialHumanoid
 
 SEED = 20263
 HOLD = 2.0  # s
@@ -43,7 +43,7 @@ def run(case: tuple[float, float, float, float]) -> Run:
     """Move one cup."""
     from_x, from_y, to_x, to_y = case
     clock = Clock()
-    humanoid = Humanoid("table")
+    humanoid = TrialHumanoid("table")
     humanoid.data.joint("cup").qpos[:2] = from_x, from_y
     simulate(humanoid, 0.5)
     grasp = Grasp(humanoid)

@@ -20,9 +20,8 @@ from bench.robot.trial import (
     summary,
     values_of,
 )
-from robot_sim.arms.inverse_kinematics import ArmInverseKinematics, Unreachable
+from robot_sim.arms.inverse_kinematics import ArmInverseKinematics, Unreachable, rotation_vector
 from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
-from robot_sim.arms.reach import rotation_vector
 from robot_sim.humanoid import Humanoid
 
 DURATION = 2.0  # s, of the motion

@@ -7,10 +7,10 @@ import random
 from collections.abc import Sequence
 
 from bench.robot.grasping import READY, READY_TIME, SIDE
+from bench.robot.reach import HandTarget
 from bench.robot.trial import Clock, Run, Summary, Trial, mean, run_of, simulate, summary, values_of
+from bench.robot.trial_humanoid import TrialHumanoid
 from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
-from robot_sim.arms.reach import HandTarget
-from robot_sim.humanoid import Humanoid
 from robot_sim.model.joint_names import arm_joints
 
 SEED = 20265
@@ -32,7 +32,7 @@ def cases(quick: bool) -> list[tuple[float, float, float]]:
 def run(place: tuple[float, float, float]) -> Run:
     """Reach for one place."""
     clock = Clock()
-    humanoid = Humanoid()
+    humanoid = TrialHumanoid()
     simulate(humanoid, 0.4)
     at_rest = (0.0,) * len(READY)
     humanoid.move_joints(JointTrajectory(tuple(arm_joints(SIDE)), (Waypoint(READY_TIME, READY, at_rest),)))

@@ -9,11 +9,11 @@ import pytest
 
 from bench.robot import grasps
 from bench.robot.grasping import Grasp
+from bench.robot.reach import HandTarget
 from bench.robot.trial import simulate
+from bench.robot.trial_humanoid import TrialHumanoid
 from robot_sim.arms.joint_trajectory import HOLD, JointPath, JointTrajectory, Waypoint
-from robot_sim.arms.reach import HandTarget
 from robot_sim.arms.upper_body import UpperBodyParameters
-from robot_sim.humanoid import Humanoid
 from robot_sim.model.joint_names import arm_joints
 from robot_sim.model.side import Side
 from robot_sim.state import Mode
@@ -22,13 +22,13 @@ ELBOW = "r_elbow"
 
 
 @pytest.fixture
-def humanoid() -> Humanoid:
-    robot = Humanoid()
+def humanoid() -> TrialHumanoid:
+    robot = TrialHumanoid()
     simulate(robot, 0.3)
     return robot
 
 
-def joint(humanoid: Humanoid, name: str) -> tuple[float, float]:
+def joint(humanoid: TrialHumanoid, name: str) -> tuple[float, float]:
     state = humanoid.joint_state()
     index = state.names.index(name)
     return float(state.position[index]), float(state.velocity[index])
@@ -203,7 +203,7 @@ def test_it_grasps_the_cup_and_puts_it_down():
 
 
 def test_the_force_sensor_filters_a_jerk_but_detects_a_lost_object():
-    robot = Humanoid("table")
+    robot = TrialHumanoid("table")
     simulate(robot, 0.3)
     grasp, hand = Grasp(robot), robot.hands[Side.RIGHT]
     grasp.get_ready()
@@ -230,7 +230,7 @@ def test_the_force_sensor_filters_a_jerk_but_detects_a_lost_object():
 
 
 def test_a_cup_that_is_let_go_falls():
-    humanoid = Humanoid("table")
+    humanoid = TrialHumanoid("table")
     simulate(humanoid, 0.3)
     start = humanoid.object_poses()["cup"].position
     humanoid.data.joint("cup").qpos[:3] = 0.33, -0.6, 0.9

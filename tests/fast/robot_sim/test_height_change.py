@@ -7,10 +7,10 @@ from itertools import pairwise
 
 import pytest
 
+from bench.robot.height_change import HeightChange
 from bench.robot.trial import simulate
-from robot_sim.humanoid import Humanoid
+from bench.robot.trial_humanoid import TrialHumanoid
 from robot_sim.state import Mode
-from robot_sim.walking.height_change import HeightChange
 
 CROUCH, STANCE = 0.45, 0.60  # m
 FASTEST = 0.15  # m/s
@@ -18,17 +18,17 @@ LONGEST = 15.0  # s
 
 
 @pytest.fixture
-def humanoid() -> Humanoid:
-    robot = Humanoid()
+def humanoid() -> TrialHumanoid:
+    robot = TrialHumanoid()
     simulate(robot, 0.5)
     return robot
 
 
-def height(humanoid: Humanoid) -> float:
+def height(humanoid: TrialHumanoid) -> float:
     return float(humanoid.base_pose().position[2])
 
 
-def phases_of(humanoid: Humanoid, change: HeightChange) -> list[str]:
+def phases_of(humanoid: TrialHumanoid, change: HeightChange) -> list[str]:
     """Step until a change has ended; its phases in order."""
     seen = [change.phase.value]
     end = humanoid.time + LONGEST
@@ -39,7 +39,7 @@ def phases_of(humanoid: Humanoid, change: HeightChange) -> list[str]:
     return seen
 
 
-def until_phase(humanoid: Humanoid, change: HeightChange, phase: str) -> None:
+def until_phase(humanoid: TrialHumanoid, change: HeightChange, phase: str) -> None:
     assert simulate(humanoid, LONGEST, until=lambda: change.phase.value == phase), change.problem
 
 
@@ -67,7 +67,7 @@ def test_progress_never_falls_back_and_the_speed_limit_holds(humanoid):
 
 def test_it_does_not_start_before_its_weight_is_even():
     def when_it_sets_out(impulse: float) -> float:
-        humanoid = Humanoid()
+        humanoid = TrialHumanoid()
         humanoid.reset(height=CROUCH)
         humanoid.push((0.0, impulse, 0.0))
         until_phase(humanoid, humanoid.stand_up(), "rising")

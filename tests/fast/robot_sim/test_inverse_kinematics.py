@@ -11,9 +11,14 @@ import pytest
 from bench.robot import hand_poses
 from bench.robot.hand_goals import KnownGoal, known_goals
 from bench.robot.trial import simulate
-from robot_sim.arms.inverse_kinematics import ArmInverseKinematics, ArmPosture, HandGoal, Unreachable
+from robot_sim.arms.inverse_kinematics import (
+    ArmInverseKinematics,
+    ArmPosture,
+    HandGoal,
+    Unreachable,
+    rotation_vector,
+)
 from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
-from robot_sim.arms.reach import rotation_vector
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.joint_names import arm_joints
 from robot_sim.model.side import SIDES, Side

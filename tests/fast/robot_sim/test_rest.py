@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from bench.robot.trial import simulate
+from bench.robot.trial_humanoid import TrialHumanoid
 from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
-from robot_sim.humanoid import Humanoid
 from robot_sim.model.side import Side
 
 SETTLED = 4.0  # s, more than it takes to come to rest after a reset
@@ -15,7 +15,7 @@ SEEN = 1e-5  # rad, m, rad/s, m/s: a hundredth of the gyro's noise, and half a t
 
 
 def standing(scene="flat", may_rest=True, seed=3):
-    humanoid = Humanoid(scene, seed=seed)
+    humanoid = TrialHumanoid(scene, seed=seed)
     humanoid.may_rest = may_rest
     return humanoid
 

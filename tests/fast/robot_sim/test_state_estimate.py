@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
+from bench.robot.state_estimate import StateEstimate
 from bench.robot.trial import feet_midpoint, simulate
-from robot_sim.humanoid import Humanoid
+from bench.robot.trial_humanoid import TrialHumanoid
 from robot_sim.sensors.imu import Imu
-from robot_sim.sensors.state_estimate import StateEstimate
 from robot_sim.state import Mode
 
 
 def test_it_walks_to_a_goal_by_its_own_sensors():
-    humanoid = Humanoid(seed=2, estimates_state=True)
+    humanoid = TrialHumanoid(seed=2, estimates_state=True)
     simulate(humanoid, 1.0)
     humanoid.walk_to(0.6, 0.3, 0.5)
     assert simulate(humanoid, 15.0, until=lambda: humanoid.arrived)
@@ -21,7 +21,7 @@ def test_it_walks_to_a_goal_by_its_own_sensors():
 
 
 def test_the_estimate_follows_the_robot_through_a_walk():
-    humanoid = Humanoid(seed=3)
+    humanoid = TrialHumanoid(seed=3)
     estimate = StateEstimate(humanoid.model, humanoid.data, Imu(humanoid.model, humanoid.data, 3))
     position, velocity = [], []
 
@@ -43,7 +43,7 @@ def test_the_estimate_follows_the_robot_through_a_walk():
 
 def test_the_estimate_does_not_use_the_true_state():
     """If the true robot is moved, the estimate does not change."""
-    humanoid = Humanoid(estimates_state=True)
+    humanoid = TrialHumanoid(estimates_state=True)
     simulate(humanoid, 1.0)
     humanoid.data.qpos[:2] += 0.7, -0.4
     simulate(humanoid, 0.2)
@@ -54,7 +54,7 @@ def test_the_estimate_does_not_use_the_true_state():
 
 
 def test_reset_restarts_the_estimate():
-    humanoid = Humanoid(seed=5, estimates_state=True)
+    humanoid = TrialHumanoid(seed=5, estimates_state=True)
 
     def walk():
         humanoid.walk_velocity(0.2, 0.0, 0.1)

@@ -8,13 +8,14 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from robot_sim.model.joint_names import ARM, WAIST, arm_joints
-from robot_sim.model.posture import on_side
+from robot_sim.arms.arm_chain import relaxed_arm
+from robot_sim.arms.inverse_kinematics import rotation_vector
+from robot_sim.arms.joint_trajectory import JointTrajectory
+from robot_sim.arms.upper_body import UpperBody
+from robot_sim.model.joint_names import WAIST, arm_joints
 from robot_sim.model.side import Side
 
 LEAST_DAMPING = 1e-3  # m, just enough to keep a matrix invertible
-# The posture that the null-space motion approaches, with the elbow away from the body: rad, left arm; other joints 0.
-RELAXED_ARM = {"shoulder_pitch": 0.3, "shoulder_roll": 0.7, "elbow": -1.4}
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,14 +130,6 @@ class Reach:
         return self._data.site_xmat[self._grip].reshape(3, 3)
 
 
-def rotation_vector(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """Return the rotation (3,) rad, world frame, that turns rotation matrix `start` (3, 3) into `end` (3, 3)."""
-    quaternion, vector = np.empty(4), np.empty(3)
-    mujoco.mju_mat2Quat(quaternion, (end @ start.T).ravel())
-    mujoco.mju_quat2Vel(vector, quaternion, 1.0)
-    return vector
-
-
 def _damped_inverse(jacobian: np.ndarray, damping: float) -> np.ndarray:
     """Jᵀ(JJᵀ + λ²I)⁻¹ (n, m) of a Jacobian (m, n)."""
     regular = jacobian @ jacobian.T + damping**2 * np.eye(len(jacobian))
@@ -148,6 +141,43 @@ def _shortened(vector: np.ndarray, longest: float) -> np.ndarray:
     return vector * (longest / length) if length > longest else vector
 
 
-def relaxed_arm(side: Side) -> list[float]:
-    """Return the positions (7,) rad of a relaxed arm, with its elbow away from the body."""
-    return [on_side(side, joint, RELAXED_ARM.get(joint, 0.0)) for joint in ARM]
+class ReachingUpperBody(UpperBody):
+    """The controller of waist, head and arms, which can also move a hand to a target."""
+
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        super().__init__(model, data)
+        self._model, self._data = model, data
+        self._reaches: dict[Side, Reach] = {}
+
+    def follow(self, trajectory: JointTrajectory) -> None:
+        """Follow a trajectory from the present positions; it replaces earlier motions."""
+        super().follow(trajectory)
+        self._reaches.clear()
+
+    def reach(self, side: Side, target: HandTarget) -> Reach:
+        """Move the hand of a side to a target in a straight line; this ends a trajectory."""
+        self._begin()
+        self._path = None
+        self._goal[:] = self._position
+        self._reaches[side] = Reach(self._model, self._data, side, target, ReachParameters())
+        return self._reaches[side]
+
+    def tick(self, dt: float) -> None:
+        """Command the servos for the next `dt` (s)."""
+        for reach in self._reaches.values():
+            joints = [self._index[name] for name in reach.joints]
+            self._goal[joints] = self._position[joints] + reach.joint_velocities(self._position[joints]) * dt
+        super().tick(dt)
+
+    def _move_to_goal(self, step: np.ndarray) -> None:
+        """Move by at most `step`; limit the distance from the measured position, which grows if an arm is blocked."""
+        super()._move_to_goal(step)
+        for reach in self._reaches.values():
+            joints = [self._index[name] for name in reach.joints]
+            measured, slack = self._servos.position[joints], ReachParameters().windup
+            self._position[joints] = np.clip(self._position[joints], measured - slack, measured + slack)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether no joint moves and no motion is left to do."""
+        return super().is_idle and not self._reaches

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 
+from robot_sim.model.dimensions import Dimensions
+from robot_sim.walking.body_height import BodyHeight, HeightLimits
 from robot_sim.walking.planar import clamp
 from robot_sim.walking.walker import Walker
 
@@ -171,3 +174,52 @@ class HeightChange:
             f"{1000 * self._offset():.0f} mm off their middle, the pelvis {1000 * abs(self._error()):.0f} mm from its "
             f"height, at {self._base_speed():.2f} m/s"
         )
+
+
+class PhasedHeight(BodyHeight):
+    """The controller of the pelvis' height, which can also change the height in phases.
+
+    Attributes:
+        change: the last change of height in phases, if any; while it lasts, `rate` is 0.
+        before_tick: called with dt (s) before each tick, for example to update an estimate of the state.
+    """
+
+    def __init__(self, walker: Walker, size: Dimensions, limits: HeightLimits) -> None:
+        super().__init__(walker, size, limits)
+        self.change: HeightChange | None = None
+        self.before_tick: Callable[[float], object] = lambda dt: None
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether no motion is commanded, or the commanded motion has ended."""
+        return super().is_idle and (self.change is None or self.change.phase.is_last)
+
+    def move(self, rate: float) -> None:
+        """Move up at `rate` (m/s; negative: down) until the next command; this ends a running change."""
+        super().move(rate)
+        self.interrupt("another command came")
+
+    def change_to(self, height: float) -> HeightChange:
+        """Move to a height (m), clamped to the limits, in phases.
+
+        Raises:
+            ValueError: the height is not finite.
+        """
+        if not math.isfinite(height):
+            raise ValueError(f"the height is {height}; expected a finite number in m")
+        self.move(0.0)
+        self.change = HeightChange(self._walker, self._within_limits(height), self._limits.speed)
+        return self.change
+
+    def interrupt(self, problem: str) -> None:
+        """End a running change as failed, with this reason; the height stays as it is."""
+        if self.change is not None:
+            self.change.fail(problem)
+
+    def tick(self, dt: float) -> None:
+        """Move the reference for the next `dt` (s)."""
+        self.before_tick(dt)
+        super().tick(dt)
+        if self.change is not None and not self.change.phase.is_last:
+            self.change.tick(dt)
+            self.set(self.change.height)
