@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import mujoco
@@ -16,7 +16,6 @@ from robot_sim.arms.upper_body import UpperBody
 from robot_sim.battery import Battery
 from robot_sim.model.build import build_model
 from robot_sim.model.dimensions import dimensions_of
-from robot_sim.model.floor import Floor
 from robot_sim.model.joint_names import ACTUATED_JOINTS
 from robot_sim.model.posture import take_stance
 from robot_sim.model.scenes import OBJECTS
@@ -73,10 +72,10 @@ class Humanoid:
         *,
         seed: int = 0,
         timestep: float = 0.005,
-        floor: Floor | None = None,
+        shape: Callable[[mujoco.MjSpec], object] = lambda spec: None,
     ) -> None:
         self.scene = scene
-        self.model = build_model(scene, timestep=timestep, floor=floor)
+        self.model = build_model(scene, timestep=timestep, shape=shape)
         self.data = mujoco.MjData(self.model)
         self.timestep = timestep
         self.seed = seed

@@ -15,13 +15,15 @@ import numpy as np
 from geometry_msgs.msg import PoseStamped
 from IPython.display import HTML
 from nav_msgs.msg import Odometry
+from PIL import Image
 from sensor_msgs.msg import JointState
 
 from lab.client import topics
 from lab.pictures.labels import Mark
 from lab.pictures.picture import HEIGHT, WIDTH, as_mujoco, figure, set_current_posture
 from robot_sim.humanoid import Humanoid
-from robot_sim.views.film import Reel
+from robot_sim.views.film import save_frames
+from robot_sim.views.view import View
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 RATE = 12.5  # frames a second
@@ -125,16 +127,15 @@ def _film(
     """Draw a frame for each posture; `caption` is called after the last frame."""
     body = Humanoid(scene)
     try:
-        reel = Reel(body, WIDTH, HEIGHT, camera=camera, rate=RATE)
+        view = View(body, WIDTH, HEIGHT, shadows=False)
     except NoOpenGLError as error:
         return HTML(f"<p>{escape(words)}. No film: {escape(str(error))}</p>")
-    webp = io.BytesIO()
     try:
-        for _ in postures(body):
-            reel.add()
-        reel.save(webp)
+        frames = [Image.fromarray(view.picture(camera)) for _ in postures(body)]
     finally:
-        reel.close()
+        view.close()
+    webp = io.BytesIO()
+    save_frames(webp, frames, "WEBP", RATE)
     if file is not None:
         Path(file).write_bytes(webp.getvalue())
     return figure(webp.getvalue(), "webp", words, caption())

@@ -2,26 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import mujoco
 
-from robot_sim.model.floor import Floor
 from robot_sim.model.scenes import scene_file
 
 
 def build_model(
-    scene: str = "flat", *, timestep: float = 0.005, floor: Floor | None = None
+    scene: str = "flat",
+    *,
+    timestep: float = 0.005,
+    shape: Callable[[mujoco.MjSpec], object] = lambda spec: None,
 ) -> mujoco.MjModel:
     """Compile the humanoid of `humanoid.xml` standing in `scene`.
 
     Args:
         scene: "flat", "table" or "stand".
         timestep: of the simulation, s.
-        floor: what it stands on; a level plane unless given.
+        shape: called with the model before it is compiled, to change it.
 
     Raises:
         ValueError: the scene is not known.
     """
     spec = mujoco.MjSpec.from_file(str(scene_file(scene)))
     spec.option.timestep = timestep
-    (floor or Floor()).shape(spec)
+    shape(spec)
     return spec.compile()

@@ -6,9 +6,9 @@ import math
 import random
 from collections.abc import Sequence
 
+from bench.robot.floor import Floor
 from bench.robot.trial import Clock, Run, Summary, Trial, run_of, simulate, summary
 from robot_sim.humanoid import Humanoid
-from robot_sim.model.floor import Floor
 
 DISTANCE = 2.0  # m
 TIME_LIMIT = 30.0  # s
@@ -35,7 +35,7 @@ def run(case: tuple[str, float, int]) -> Run:
     direction, uphill = chance.uniform(-math.pi, math.pi), chance.uniform(-math.pi, math.pi)
     floor = Floor(math.radians(size), uphill) if kind == "slope" else Floor(bumps=strewn(chance, size))
     clock = Clock()
-    humanoid = Humanoid(floor=floor)
+    humanoid = Humanoid(shape=floor.shape)
     simulate(humanoid, 1.0)
     humanoid.walk_to(DISTANCE * math.cos(direction), DISTANCE * math.sin(direction), direction)
     arrived = simulate(humanoid, TIME_LIMIT, until=lambda: humanoid.arrived)

@@ -1,50 +1,21 @@
-"""Films without a screen."""
-
-import io
+"""Films of pictures."""
 
 import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
-from robot_sim.humanoid import Humanoid
-from robot_sim.views.film import Reel, film
+from robot_sim.views.film import save_frames
+
+FRAMES = [Image.fromarray(np.full((36, 48, 3), level, np.uint8)) for level in (20, 120, 220)]
 
 
-def test_a_film_plays_the_motion_at_the_pace_of_the_simulation(tmp_path):
-    humanoid = Humanoid()
-    humanoid.walk_velocity(0.3, 0.0, 0.0)
-    film(humanoid, 2.0, tmp_path / "walk.webp", camera="side")
-    assert humanoid.time == pytest.approx(1.96, abs=0.01)  # the last of 50 frames
-    with Image.open(tmp_path / "walk.webp") as moving:
-        frames = [np.asarray(frame.convert("RGB")).astype(int) for frame in ImageSequence.Iterator(moving)]
-        assert moving.info["duration"] == 40  # ms
-    assert len(frames) == 50
-    legs = np.array(frames)[:, 200:330]
-    assert (abs(legs[-1] - legs[0]) > 40).mean() > 0.005
-
-
-def test_commands_can_be_given_while_it_is_filmed():
-    humanoid = Humanoid()
-    pushed = []
-
-    def push_once():
-        if humanoid.time >= 0.1 and not pushed:
-            pushed.append(humanoid.time)
-            humanoid.set_motor_power(False)
-
-    film(humanoid, 0.4, io.BytesIO(), each_step=push_once)
-    assert pushed == [pytest.approx(0.1, abs=0.01)]
-    assert not humanoid.motors_enabled
-
-
-@pytest.mark.parametrize("seconds", [0.0, -1.0, float("nan")])
-def test_a_film_without_a_duration_is_refused(seconds):
-    with pytest.raises(ValueError, match="expected a positive number"):
-        film(Humanoid(), seconds, io.BytesIO())
-
-
-def test_an_empty_reel_is_refused():
-    reel = Reel(Humanoid(), 64, 48)
-    with pytest.raises(ValueError, match="there are no frames"):
-        reel.save(io.BytesIO())
-    reel.close()
+@pytest.mark.parametrize("kind", ["WEBP", "GIF"])
+def test_a_film_has_every_frame_at_its_rate_and_shows_the_last_one_longer(tmp_path, kind):
+    save_frames(tmp_path / "film", FRAMES, kind, 25.0, last=2.0)
+    with Image.open(tmp_path / "film") as moving:
+        shown = []
+        for frame in ImageSequence.Iterator(moving):
+            frame.load()
+            shown.append((np.asarray(frame.convert("L")).mean(), moving.info["duration"]))
+    assert [level for level, _ in shown] == pytest.approx([20, 120, 220], abs=4)
+    assert [duration for _, duration in shown] == [40, 40, 2040]  # ms

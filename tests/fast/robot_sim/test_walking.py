@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 
+from bench.robot.floor import Floor
 from bench.robot.trial import base_speed, feet_midpoint, simulate
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.dimensions import dimensions_of
-from robot_sim.model.floor import Floor
 from robot_sim.state import Mode
 from ros_runtime.angles import wrap
 
@@ -150,7 +150,7 @@ def test_a_pose_that_is_not_a_number_is_refused(humanoid):
 
 @pytest.mark.parametrize("uphill", [0.0, 1.6, 3.1, -1.6])
 def test_it_walks_on_a_slope_of_three_degrees(uphill):
-    humanoid = Humanoid(floor=Floor(slope=math.radians(3.0), uphill=uphill))
+    humanoid = Humanoid(shape=Floor(slope=math.radians(3.0), uphill=uphill).shape)
     simulate(humanoid, 0.5)
     humanoid.walk_to(1.0, 0.0, 0.0)
     assert simulate(humanoid, 15.0, until=lambda: humanoid.arrived)
@@ -161,6 +161,6 @@ def test_it_walks_on_a_slope_of_three_degrees(uphill):
 
 
 def test_it_steps_over_a_bump():
-    humanoid = Humanoid(floor=Floor(bumps=((0.3, 0.09, 0.01), (0.6, -0.09, 0.01))))
+    humanoid = Humanoid(shape=Floor(bumps=((0.3, 0.09, 0.01), (0.6, -0.09, 0.01))).shape)
     humanoid.walk_to(1.0, 0.0, 0.0)
     assert simulate(humanoid, 15.0, until=lambda: humanoid.arrived)
