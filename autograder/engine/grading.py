@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Collection, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 
 from autograder.authoring.checks import Check, Scenario
@@ -88,8 +89,7 @@ def grade(
 ) -> Grade:
     """Grade a submission with the checks of the exercise, visible and hidden.
 
-    `arenas` are those of this submission, if one was opened ahead; they are closed at the end. When `stop` is set, the
-    arenas are ended at once.
+    `arenas` are the caller's, which stay open; None: new ones. When `stop` is set, running arenas are ended at once.
 
     Raises:
         Stopped: `stop` was set before the last verdict.
@@ -100,8 +100,9 @@ def grade(
         if not isolation.trusted:
             raise HiddenChecksRefused(f"hidden checks need isolated arenas: {isolation.reason}")
         require_hidden([exercise.folder, exercises_folder()])
-    arenas = arenas or SubmissionArenas(exercise.scenario_file, isolation.kind)
-    return _Session(submission, exercise, replace(options, isolation=isolation), watcher, arenas, stop).run()
+    options = replace(options, isolation=isolation)
+    with nullcontext(arenas) if arenas else SubmissionArenas(exercise.scenario_file, isolation.kind) as ours:
+        return _Session(submission, exercise, options, watcher, ours, stop).run()
 
 
 class _Session:
@@ -134,7 +135,7 @@ class _Session:
 
     def run(self) -> Grade:
         jobs, first_alone = self._options.jobs, self._options.first_alone
-        with self._arenas, ThreadPoolExecutor(jobs) as pool:
+        with ThreadPoolExecutor(jobs) as pool:
             try:
                 while len(self._verdicts) < len(self._exercise.checks):
                     if self._stop.is_set():

@@ -175,12 +175,6 @@ class Candidate:
         return given_in(file.read(MAX_NOTEBOOK_BYTES))
 
 
-def candidate_at(path: Path, exercise: str) -> Candidate:
-    """Return the notebook or program at this place, whatever it is called."""
-    name = path.name if path.suffix == ".ipynb" else file_names(exercise)[0]
-    return Candidate(exercise, PurePath(path.name), {name: OwnFile(path)})
-
-
 def work_in(folder: Path, exercise: str, *, depth: int = MOST_FOLDERS) -> tuple[Path, list[str]] | None:
     """Return the path of an exercise's work in a folder, and a sentence on each rejected file; None without work.
 

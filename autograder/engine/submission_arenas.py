@@ -9,7 +9,6 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from types import TracebackType
 
 from autograder.engine.submission_arena import SubmissionArena
 from autograder.isolation.arena_spec import ISOLATION_VARIABLE, Kind
@@ -51,9 +50,7 @@ class SubmissionArenas:
     def __enter__(self) -> SubmissionArenas:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     def close(self) -> None:

@@ -14,7 +14,7 @@ from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.verdict import CheckVerdict
 from autograder.report.rendering import ENVIRONMENT
 from autograder.report.sequence import transcript_svg
-from autograder.report.table import MARKS
+from autograder.report.table import MARKS, reasons
 
 _LESSON = re.compile(r"chapters/(\w+)\.ipynb(?:, “([^”]+)”)?")
 
@@ -73,6 +73,5 @@ def with_links(text: str) -> Markup:
 def _in_text(verdict: CheckVerdict) -> str:
     lines = [f"{MARKS[verdict.status][0]} {verdict.title}  {verdict.points}/{verdict.max_points}"]
     if verdict.status != "passed":
-        parts = {"expected": verdict.expected, "observed": verdict.observed, "next": verdict.help}
-        lines += [f"    {name}  {text}" for name, text in parts.items() if text]
+        lines += [f"    {label}  {text}" for label, text in reasons(verdict).items()]
     return "\n".join(lines)

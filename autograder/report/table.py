@@ -61,15 +61,17 @@ def explanation(verdict: CheckVerdict) -> Table:
     if verdict.status == "passed":
         return table
     when = f"  (at {verdict.robot_time:.1f} s)" if verdict.robot_time is not None else ""
-    if verdict.expected:
-        table.add_row("expected", Text(verdict.expected))
-    if verdict.observed:
-        table.add_row("observed", Text.assemble(verdict.observed, (when, "dim")))
-    if verdict.help:
-        table.add_row("next", Text(verdict.help))
+    for label, text in reasons(verdict).items():
+        table.add_row(label, Text.assemble(text, (when if label == "observed" else "", "dim")))
     for line in _near_the_failure(verdict):
         table.add_row("log", Text(line, "dim"))
     return table
+
+
+def reasons(verdict: CheckVerdict) -> dict[str, str]:
+    """Return what was expected, what was observed and what to do next, as far as there is a text for it."""
+    texts = {"expected": verdict.expected, "observed": verdict.observed, "next": verdict.help}
+    return {label: text for label, text in texts.items() if text}
 
 
 def _near_the_failure(verdict: CheckVerdict) -> list[str]:
@@ -171,13 +173,7 @@ def verdict_text(verdict: CheckVerdict, longest: int = LONGEST_TEXT) -> str:
     Nothing is left out, so the text of a hidden check's verdict is for instructors only.
     """
     lines = [verdict.status.capitalize() + "."]
-    for label, text in (
-        ("Expected", verdict.expected),
-        ("Observed", verdict.observed),
-        ("Next", verdict.help),
-    ):
-        if text:
-            lines.append(f"{label}: {text}")
+    lines += [f"{label.capitalize()}: {text}" for label, text in reasons(verdict).items()]
     if verdict.robot_time is not None:
         lines.append(f"At {verdict.robot_time:.1f} s.")
     if verdict.log and verdict.status != "passed":

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import threading
 import time
-from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
-from contextlib import contextmanager
+from collections.abc import Callable, Collection, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
-from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from autograder.classroom.audit.known_submission import KnownSubmission, require_known_checks
@@ -131,13 +127,15 @@ def audit(
         report(run, False)
 
     stop = Stop()
-    with SharedArenas(known for known, _ in left) as shared, ThreadPoolExecutor(jobs) as pool:
+    with SubmissionArenas(exercise.scenario_file) as shared, ThreadPoolExecutor(jobs) as pool:
 
-        def audit_in_shared(known: KnownSubmission, repetition: int) -> AuditedRun:
-            with shared.lent_to(known, exercise) as arenas:
-                return grade_one(known, exercise, repetition, seed, record.scale, arenas=arenas, stop=stop)
+        def start(known: KnownSubmission, repetition: int) -> Future[AuditedRun]:
+            arenas = shared if known.kind == "faulty" else None
+            return pool.submit(
+                grade_one, known, exercise, repetition, seed, record.scale, arenas=arenas, stop=stop
+            )
 
-        futures = [pool.submit(audit_in_shared, *one) for one in left]
+        futures = [start(*one) for one in left]
         try:
             for future in as_completed(futures):
                 if future.result().grade.status != "not graded":
@@ -166,8 +164,8 @@ def audit_one(
 ) -> AuditedRun:
     """Grade one submission, one arena at a time.
 
-    `checks_without_retry`: the checks that are not retried when they fail. `arenas`: the arenas to use, from
-    `SharedArenas`; None: new ones. `stop`: ends the arenas at once when it is set.
+    `checks_without_retry`: the checks that are not retried when they fail. `arenas`: the arenas to use; None: new ones.
+    `stop`: ends the arenas at once when it is set.
     """
     started = time.monotonic()
     options = GradingOptions(
@@ -188,51 +186,3 @@ def unproved_checks(runs: Sequence[AuditedRun], exercise: Exercise) -> list[str]
         check_id for run in runs for check_id in run.known.caught_by if run.status(check_id) == "failed"
     }
     return [check.id for check in exercise.checks if check.id not in proved]
-
-
-class SharedArenas:
-    """Lends an exercise's arenas to one faulty submission after another, and closes them after the last one.
-
-    As a context manager, it closes the arenas that are still open.
-    """
-
-    def __init__(self, submissions: Iterable[KnownSubmission]) -> None:
-        """Each of `submissions` will be graded once."""
-        self._left = Counter(known.exercise for known in submissions if known.kind == "faulty")
-        self._open: dict[str, _KeptArenas] = {}
-        self._lock = threading.Lock()
-
-    def __enter__(self) -> SharedArenas:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        for arenas in self._open.values():
-            arenas.close()
-
-    @contextmanager
-    def lent_to(self, known: KnownSubmission, exercise: Exercise) -> Iterator[SubmissionArenas | None]:
-        """Yield the shared arenas for a faulty submission; None for any other, which needs arenas of its own."""
-        if known.kind != "faulty":
-            yield None
-            return
-        with self._lock:
-            arenas = self._open.setdefault(known.exercise, _KeptArenas(exercise.scenario_file))
-        try:
-            yield arenas
-        finally:
-            with self._lock:
-                self._left[known.exercise] -= 1
-                last = not self._left[known.exercise]
-            if last:
-                arenas.close()
-
-
-class _KeptArenas(SubmissionArenas):
-    """Arenas that stay open from one grading to the next."""
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        """Leave them open for the next grading."""

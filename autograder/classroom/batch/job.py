@@ -63,7 +63,6 @@ class Outcome:
 
     Attributes:
         grade: the verdicts.
-        isolation: the label of the worker's isolation; "" if the worker was lost.
         drawn: SVG drawings of the runs on which checks failed, by the check's id.
         effort: the time and cost of the grading; None if the worker was lost.
         recordings: MCAP files by name, if the job requests recordings.
@@ -71,11 +70,28 @@ class Outcome:
     """
 
     grade: Grade
-    isolation: str
     drawn: DrawnRuns = field(default_factory=dict)
     effort: Effort | None = None
     recordings: Recordings = field(default_factory=dict)
     retry_may_succeed: bool = False
+
+
+@dataclass(frozen=True)
+class BatchWatcher:
+    """The callbacks of a batch, which may be called on any thread.
+
+    Attributes:
+        on_verdict: called with each verdict as soon as it is known; another machine sends all verdicts of a grade at
+            once.
+        on_begin, on_end: called with each job of this process when it begins and when it ends.
+        on_retry: called with each job that could not be graded and will be retried alone at the end, and its first
+            outcome.
+    """
+
+    on_verdict: Callable[[CheckVerdict], None] = lambda verdict: None
+    on_begin: Callable[[GradingJob], None] = lambda job: None
+    on_end: Callable[[GradingJob], None] = lambda job: None
+    on_retry: Callable[[GradingJob, Outcome], None] = lambda job, outcome: None
 
 
 @dataclass(frozen=True)
@@ -85,15 +101,12 @@ class SharedState:
     Attributes:
         isolation: the isolation of this machine.
         stop: ends running gradings when it is set.
-        report: called with each verdict.
-        on_begin, on_end: called with each job when it begins and when it ends.
+        watcher: the callbacks of the batch.
     """
 
     isolation: Isolation
     stop: Stop
-    report: Callable[[CheckVerdict], None]
-    on_begin: Callable[[GradingJob], None]
-    on_end: Callable[[GradingJob], None]
+    watcher: BatchWatcher
 
 
 def carry_out(job: GradingJob, shared: SharedState | None = None) -> Outcome:
@@ -106,11 +119,11 @@ def carry_out(job: GradingJob, shared: SharedState | None = None) -> Outcome:
         return _graded(job, available_isolation(), Stop(), lambda verdict: None)
     if shared.stop.is_set():
         raise Stopped
-    shared.on_begin(job)
+    shared.watcher.on_begin(job)
     try:
-        return _graded(job, shared.isolation, shared.stop, shared.report)
+        return _graded(job, shared.isolation, shared.stop, shared.watcher.on_verdict)
     finally:
-        shared.on_end(job)
+        shared.watcher.on_end(job)
 
 
 def _graded(
@@ -130,11 +143,11 @@ def _graded(
             found = not_graded(job.exercise, job.student, isolation.label, problem)
         else:
             exercise = load_exercise(job.exercise, hidden=job.trusted)
-            arenas = SubmissionArenas(exercise.scenario_file, isolation.kind)
             recorder = _recorder(exercise) if job.recorded else None
             options = GradingOptions(job.seed, job.arenas, isolation=isolation, recorded=job.recorded)
             watcher = Watcher(on_verdict=report, on_evidence=keep_evidence)
-            found = grade(job.submission, exercise, options, watcher, arenas=arenas, stop=stop)
+            with SubmissionArenas(exercise.scenario_file, isolation.kind) as arenas:
+                found = grade(job.submission, exercise, options, watcher, arenas=arenas, stop=stop)
     except Stopped:
         raise
     except Exception:  # any error here is the grader's fault and must not end the batch
@@ -142,7 +155,6 @@ def _graded(
         found = not_graded(job.exercise, job.student, isolation.label, reason)
     return Outcome(
         with_reason(found),
-        isolation.label,
         drawn,
         _effort(began, arenas),
         recorder.files(found) if recorder else {},

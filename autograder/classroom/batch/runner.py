@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-import threading
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence, Sized
-from dataclasses import dataclass
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sized
+from dataclasses import dataclass, field
 from functools import lru_cache, partial
 from pathlib import Path
 
@@ -13,37 +12,20 @@ from autograder.classroom.batch.cache import CachedGrade, GradeCache
 from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.effort import Effort, without_arena
 from autograder.classroom.batch.grades_without_run import unreadable
-from autograder.classroom.batch.job import GradingJob, SharedState, carry_out
+from autograder.classroom.batch.job import BatchWatcher, GradingJob, SharedState, carry_out
 from autograder.classroom.batch.seeds import ONE_FOR_ALL, Seeds
 from autograder.classroom.batch.version import checks_version
-from autograder.classroom.batch.worker_pool import RetryLater, WorkerPool, Workers, threads
+from autograder.classroom.batch.worker_pool import WorkerPool, Workers, threads
 from autograder.classroom.pages.drawings import Drawings
 from autograder.engine.essay import load_essay, unmarked_grade
 from autograder.engine.exercise import FOLDER_VARIABLE, Exercise, essay_names, load_exercise
 from autograder.engine.stop import Stop
 from autograder.engine.submission import UnusableSubmission
-from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation
 from autograder.recording.kept import keep
 
 RESULT_POLL_TIME = 0.5  # s to wait for results before the next poll for new submissions
-
-
-@dataclass(frozen=True)
-class BatchWatcher:
-    """The callbacks of a batch, which may be called on any thread.
-
-    Attributes:
-        on_verdict: called with each verdict as soon as it is known; another machine sends all verdicts of a grade at
-            once.
-        on_running: called with the jobs that run in this process, whenever they change.
-        on_retry: called with each job that could not be graded and will be retried alone at the end, and its first
-            outcome.
-    """
-
-    on_verdict: Callable[[CheckVerdict], None] = lambda verdict: None
-    on_running: Callable[[Sequence[GradingJob]], None] = lambda jobs: None
-    on_retry: RetryLater = lambda job, outcome: None
 
 
 @dataclass(frozen=True)
@@ -82,15 +64,13 @@ class BatchRunner:
     jobs: int
     seeds: Seeds = ONE_FOR_ALL
     resume: bool = False
-    watcher: BatchWatcher = BatchWatcher()
+    watcher: BatchWatcher = field(default_factory=BatchWatcher)
     drawings: Drawings | None = None
     recordings: Path | None = None
     workers: Workers | None = None
 
     def __post_init__(self) -> None:
         self._stop = Stop()
-        self._now_running: list[GradingJob] = []
-        self._lock = threading.Lock()
         self.exercise = lru_cache(
             self._load
         )  # returns an exercise by its name, with the checks of this batch
@@ -111,7 +91,8 @@ class BatchRunner:
         submissions = len(works) if isinstance(works, Sized) else self.jobs
         arenas = 1 if self.workers else max(1, self.jobs // max(1, submissions))
         workers = self.workers or threads(max(1, self.jobs // arenas))
-        shared = self._shared() if workers.share_memory else None
+        state = SharedState(self.isolation, self._stop, self.watcher)
+        shared = state if workers.share_memory else None
         pool = WorkerPool(workers, partial(carry_out, shared=shared), self.watcher.on_retry)
         handed_over: dict[tuple[str, str], Work] = {}
         try:
@@ -186,16 +167,3 @@ class BatchRunner:
                 for verdict in outcome.grade.checks:
                     self.watcher.on_verdict(verdict)
         yield from finished
-
-    def _shared(self) -> SharedState:
-        return SharedState(self.isolation, self._stop, self.watcher.on_verdict, self._on_begin, self._on_end)
-
-    def _on_begin(self, job: GradingJob) -> None:
-        with self._lock:
-            self._now_running.append(job)
-            self.watcher.on_running(list(self._now_running))
-
-    def _on_end(self, job: GradingJob) -> None:
-        with self._lock:
-            self._now_running.remove(job)
-            self.watcher.on_running(list(self._now_running))

@@ -13,8 +13,6 @@ from dataclasses import dataclass, replace
 from autograder.classroom.batch.grades_without_run import not_graded
 from autograder.classroom.batch.job import GradingJob, Outcome
 
-RetryLater = Callable[[GradingJob, Outcome], None]
-
 
 @dataclass(frozen=True)
 class Workers:
@@ -47,12 +45,12 @@ class WorkerPool:
     Attributes:
         workers: where the jobs run.
         work: the function that grades a job.
-        retry_later: called with each job that will be retried, and its first outcome.
+        on_retry: called with each job that will be retried, and its first outcome.
     """
 
     workers: Workers
     work: Callable[[GradingJob], Outcome]
-    retry_later: RetryLater = lambda job, outcome: None
+    on_retry: Callable[[GradingJob, Outcome], None] = lambda job, outcome: None
 
     def __post_init__(self) -> None:
         self._executor: Executor | None = None
@@ -103,7 +101,7 @@ class WorkerPool:
                 outcomes.append((job, outcome))
             else:
                 self._to_retry.append(job)
-                self.retry_later(job, outcome)
+                self.on_retry(job, outcome)
         return outcomes
 
     def close(self) -> None:
@@ -123,4 +121,4 @@ def _lost(job: GradingJob, error: BaseException, *, twice: bool) -> Outcome:
         f"the worker was lost {'twice ' if twice else ''}while it graded this ({type(error).__name__}: {error}); check "
         "whether a machine ran out of memory or was switched off, and grade again with --resume"
     )
-    return Outcome(not_graded(job.exercise, job.student, "", reason), "", retry_may_succeed=True)
+    return Outcome(not_graded(job.exercise, job.student, "", reason), retry_may_succeed=True)

@@ -14,9 +14,10 @@ from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.dask_workers import Cluster, dask_cluster
 from autograder.classroom.batch.effort import utc_now
 from autograder.classroom.batch.folder_lock import locked
+from autograder.classroom.batch.job import BatchWatcher
 from autograder.classroom.batch.records import GRADES, read_grades
 from autograder.classroom.batch.request import BatchRequest
-from autograder.classroom.batch.runner import BatchRunner, BatchWatcher, Graded
+from autograder.classroom.batch.runner import BatchRunner, Graded
 from autograder.classroom.batch.seeds import Seeds, drawn_seed, seed_of_submissions
 from autograder.classroom.batch.selection import require_seed
 from autograder.classroom.batch.version import commit_of
@@ -58,7 +59,7 @@ class PreparedBatch:
                 seeds=self.seeds,
                 resume=request.resume or request.watch,
                 workers=cluster.workers if cluster else None,
-                watcher=BatchWatcher(progress.verdict, progress.running, progress.retry_later),
+                watcher=BatchWatcher(progress.verdict, progress.begin, progress.end, progress.retry_later),
                 drawings=Drawings(request.out),
                 recordings=request.out / RECORDINGS if request.record else None,
             )

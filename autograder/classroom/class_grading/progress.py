@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Sequence
-from types import TracebackType
+from collections.abc import Callable
 
 from rich.console import Console, Group, RenderableType
 from rich.live import Live
@@ -60,9 +59,7 @@ class BatchProgress:
             self._live.start()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         if self._live:
             self._live.stop()
 
@@ -77,13 +74,16 @@ class BatchProgress:
             self._pace.add()
         self._print_when_due()
 
-    def running(self, jobs: Sequence[GradingJob]) -> None:
-        """Show these running jobs; may be called on any thread."""
+    def begin(self, job: GradingJob) -> None:
+        """Show that a job runs; may be called on any thread."""
         with self._lock:
-            now = self._clock()
-            self._began = {
-                key: self._began.get(key, now) for key in ((job.student, job.exercise) for job in jobs)
-            }
+            self._began[job.student, job.exercise] = self._clock()
+        self._print_when_due()
+
+    def end(self, job: GradingJob) -> None:
+        """Show a job no more; may be called on any thread."""
+        with self._lock:
+            del self._began[job.student, job.exercise]
         self._print_when_due()
 
     def retry_later(self, job: GradingJob, outcome: Outcome) -> None:

@@ -15,8 +15,9 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from audited.proof import enough_to_catch, enough_to_prove
+from audited.shared_arenas import SharedArenas
 from autograder.classroom.audit.known_submission import known_submissions
-from autograder.classroom.audit.run import SharedArenas, audit_one
+from autograder.classroom.audit.run import audit_one
 from autograder.engine.exercise import exercise_names, load_exercise
 from autograder.isolation.availability import available_isolation
 from developer.test import LOST_POINTS

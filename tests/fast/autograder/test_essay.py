@@ -14,7 +14,8 @@ from typer.testing import CliRunner
 from autograder.authoring.rubric import Criterion, criteria_in
 from autograder.classroom.batch.cache import GradeCache
 from autograder.classroom.batch.collection import collect
-from autograder.classroom.batch.runner import BatchRunner, BatchWatcher
+from autograder.classroom.batch.job import BatchWatcher
+from autograder.classroom.batch.runner import BatchRunner
 from autograder.classroom.nbgrader_bridge.generated_cells import with_criterion_cells
 from autograder.engine.essay import load_essay, unmarked_grade
 from autograder.engine.exercise import (

@@ -78,13 +78,14 @@ def test_without_a_terminal_progress_lines_are_printed_at_intervals(clock):
     console = Console(file=io.StringIO(), width=200)
     with BatchProgress(console, clock=clock) as progress:
         progress.expect(checks=3, submissions=3)
-        progress.running([job("anna"), job("bert")])
+        progress.begin(job("anna"))
+        progress.begin(job("bert"))
         progress.verdict(VERDICT)
         progress.graded(result("anna"), checks=1)
-        progress.running([job("bert")])
+        progress.end(job("anna"))
         clock.now = PRINT_PERIOD
-        progress.running([job("bert"), job("carl")])
-        progress.running([job("bert")])
+        progress.begin(job("carl"))
+        progress.end(job("carl"))
     lines = console.file.getvalue().splitlines()
     assert lines[0].startswith("anna · walk_to")
     assert lines[1:] == [
@@ -96,9 +97,10 @@ def test_on_a_terminal_all_running_submissions_are_shown_with_their_time(clock):
     console = Console(file=io.StringIO(), width=200, force_terminal=True, color_system=None)
     with BatchProgress(console, clock=clock, elsewhere=4) as progress:
         progress.expect(checks=20, submissions=10)
-        progress.running([job("anna")])
+        progress.begin(job("anna"))
         clock.now = 75.0
-        progress.running([job("anna"), *(job(f"student{number}") for number in range(MAX_LISTED_JOBS))])
+        for number in range(MAX_LISTED_JOBS):
+            progress.begin(job(f"student{number}"))
         progress.graded(result("known", cached=True), checks=2)
     shown = console.file.getvalue()
     for words in (
@@ -129,7 +131,7 @@ def test_a_postponed_submission_is_reported_and_its_verdicts_are_expected_again(
     progress.expect(checks=1, submissions=1)
     progress.verdict(VERDICT)
     first = Grade("walk_to", "anna", "namespaces", [VERDICT], reason="the machine was too busy\nfor that")
-    progress.retry_later(job("anna"), Outcome(first, "namespaces", retry_may_succeed=True))
+    progress.retry_later(job("anna"), Outcome(first, retry_may_succeed=True))
     assert "anna · walk_to  not graded yet" in console.file.getvalue()
     assert console.file.getvalue().endswith("the machine was too busy\n")
     assert (progress._pace.done, progress._pace.expected) == (1, 2)

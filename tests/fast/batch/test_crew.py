@@ -35,7 +35,7 @@ def grade_or_die(folder: Path, job: GradingJob) -> Outcome:
         tries.write("x")
     if job.student == "always" or (job.student == "once" and (folder / job.student).read_text() == "x"):
         os._exit(9)
-    return Outcome(passes(job), "namespaces")
+    return Outcome(passes(job))
 
 
 def outcomes(crew: WorkerPool, students: list[str]) -> list[tuple[str, str, str]]:
@@ -80,7 +80,7 @@ def test_an_ungraded_job_is_repeated_alone_at_the_end() -> None:
         busy = job.student == "always" or (job.student == "at first" and tries[job.student] == 1)
         grade = not_graded(job.exercise, job.student, "", "the machine was too busy") if busy else passes(job)
         running.remove(job.student)
-        return Outcome(grade, "namespaces", retry_may_succeed=busy)
+        return Outcome(grade, retry_may_succeed=busy)
 
     retry_later: list[str] = []
     crew = WorkerPool(threads(3), busy_at_first, lambda job, outcome: retry_later.append(job.student))
@@ -96,7 +96,7 @@ def test_a_job_that_is_ungraded_for_a_permanent_reason_is_not_repeated() -> None
 
     def without_isolation(job: GradingJob) -> Outcome:
         tries.append(job.student)
-        return Outcome(not_graded(job.exercise, job.student, "", "the worker has no isolation"), "")
+        return Outcome(not_graded(job.exercise, job.student, "", "the worker has no isolation"))
 
     ((_, status, _),) = outcomes(WorkerPool(threads(1), without_isolation), ["anna"])
     assert status == "not graded"

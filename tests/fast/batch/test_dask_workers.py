@@ -31,7 +31,7 @@ def grade_once_the_killed_is_gone(folder: Path, job: GradingJob) -> Outcome:
     while not (folder / "killed").exists():
         pass
     verdicts = [CheckVerdict("id", "title", "passed", 1, 1)]
-    return Outcome(Grade(job.exercise, job.student, "untrusted", verdicts), "untrusted")
+    return Outcome(Grade(job.exercise, job.student, "untrusted", verdicts))
 
 
 def test_with_a_killed_worker_no_grade_is_lost_or_duplicated(tmp_path, monkeypatch):
@@ -60,7 +60,7 @@ def test_with_a_killed_worker_no_grade_is_lost_or_duplicated(tmp_path, monkeypat
 def test_a_worker_without_isolation_skips_hidden_checks_and_reports_it(monkeypatch):
     monkeypatch.setenv("COURSE_ISOLATION", "none")
     outcome = carry_out(job("anna", trusted=True))
-    assert (outcome.grade.status, outcome.isolation) == ("not graded", "untrusted")
+    assert (outcome.grade.status, outcome.grade.isolation) == ("not graded", "untrusted")
     assert "which hidden checks need" in outcome.grade.reason
 
 

@@ -10,13 +10,14 @@ import pytest
 from autograder.classroom.batch import job as module
 from autograder.classroom.batch.cache import GradeCache
 from autograder.classroom.batch.collection import Work
-from autograder.classroom.batch.runner import BatchRunner, BatchWatcher
+from autograder.classroom.batch.job import BatchWatcher
+from autograder.classroom.batch.runner import BatchRunner
 from autograder.engine.exercise import load_exercise
-from autograder.engine.hand_in import candidate_at
 from autograder.engine.stop import Stopped
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
+from student_work import work_at
 
 ISOLATED = Isolation(Kind.NAMESPACES, "as a test says")
 CHECKS = load_exercise("battery_service", hidden=True).checks
@@ -45,10 +46,7 @@ def works(tmp_path):
     sources = {"anna": "right", "bert": "crash", "carl": "busy", "dora": "right"}
     for student, source in sources.items():
         (tmp_path / f"{student}.py").write_text(source)
-    found = [
-        Work(student, "battery_service", (candidate_at(tmp_path / f"{student}.py", "battery_service"),))
-        for student in sources
-    ]
+    found = [work_at(tmp_path / f"{student}.py", student, "battery_service") for student in sources]
     return [*found, Work("emil", "battery_service")]
 
 

@@ -9,7 +9,6 @@ import pytest
 
 from autograder.authoring.checks import Check, Scenario
 from autograder.classroom.batch.batch_record import BatchRecord
-from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.request import BatchRequest, UnusableRequest
 from autograder.classroom.batch.seeds import Seeds
 from autograder.classroom.batch.selection import require_seed
@@ -18,11 +17,11 @@ from autograder.classroom.class_grading.prepared_batch import choose_seeds
 from autograder.engine import grading
 from autograder.engine.arena_run import NotGraded
 from autograder.engine.exercise import Exercise, exercise_names, load_exercise
-from autograder.engine.hand_in import candidate_at
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import Grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
+from student_work import work_at
 
 NEW = BatchRequest(Path("submitted"), Path("graded"))
 RECORD = BatchRecord("ended", "2026-03-01T12:00:00+00:00", 77, False, False, "namespaces", 2)
@@ -56,7 +55,7 @@ def test_shards_use_the_same_seed_unless_their_submissions_differ(tmp_path):
     for student in ("anna", "bert"):
         path = tmp_path / f"{student}.py"
         path.write_text(f"name = {student!r}\n")
-        works.append(Work(student, "walk_to", (candidate_at(path, "walk_to"),)))
+        works.append(work_at(path, student, "walk_to"))
     first, second = (replace(NEW, shard=Shard(number, 2)) for number in (1, 2))
     seeds = choose_seeds(first, None, (), works)
     assert seeds == choose_seeds(second, None, (), works[::-1])

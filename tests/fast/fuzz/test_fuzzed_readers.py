@@ -11,17 +11,17 @@ from hypothesis import strategies as st
 
 pytest.importorskip("rclpy")
 
-from autograder.classroom.batch.collection import Work, collect
+from autograder.classroom.batch.collection import collect
 from autograder.classroom.batch.records import GRADES, UnusableRecord, read_grades
 from autograder.classroom.batch.shards import SHARD, CannotMerge, merge_shards
 from autograder.classroom.pages.drawings import Drawings
 from autograder.engine.arena_run import NotGraded, read_events
-from autograder.engine.hand_in import candidate_at
 from autograder.engine.submission import UnusableSubmission
 from autograder.engine.verdict import Grade
 from fuzz.fuzzer import LONG, SUITE, Fuzzer
 from fuzz.readers import records
 from fuzz.readers.all import CHANNELS, READERS
+from student_work import work_at
 
 IN_ARENAS = ("answers-judged",)  # reads all recorded runs, which takes seconds; so it is in tests/arena/fuzz
 
@@ -93,7 +93,7 @@ def test_an_unreadable_file_is_reported(tmp_path: Path, monkeypatch: pytest.Monk
 
     monkeypatch.setattr(Path, "read_bytes", refuse)
     with pytest.raises(UnusableSubmission, match=r"battery_service\.py cannot be read: Permission denied"):
-        Work("anna", "battery_service", (candidate_at(path, "battery_service"),)).read()
+        work_at(path, "anna", "battery_service").read()
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may read every folder")

@@ -18,7 +18,6 @@ from autograder.classroom.batch.job import GradingJob, Outcome
 from autograder.classroom.batch.runner import BatchRunner
 from autograder.classroom.batch.worker_pool import Workers
 from autograder.engine.grading import GradingOptions, Watcher
-from autograder.engine.hand_in import candidate_at
 from autograder.engine.verdict import Grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
@@ -26,6 +25,7 @@ from autograder.recording.kept import FOLDER
 from autograder.recording.replay.recording import Recording
 from course_cli.app import app
 from falls import exercise, judged, walk
+from student_work import work_at
 
 ISOLATED = Isolation(Kind.NAMESPACES, "as a test says")
 asked: list[bool] = []
@@ -51,10 +51,7 @@ def works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[Work]:
     asked.clear()
     for student in ("anna", "bert"):
         (tmp_path / f"{student}.py").write_text(f"# {student}")
-    return [
-        Work(student, "walk_to", (candidate_at(tmp_path / f"{student}.py", "walk_to"),))
-        for student in ("anna", "bert")
-    ]
+    return [work_at(tmp_path / f"{student}.py", student, "walk_to") for student in ("anna", "bert")]
 
 
 def batch(tmp_path: Path, recordings: Path | None, **options: Any) -> BatchRunner:
@@ -106,9 +103,7 @@ def test_an_outcome_can_be_sent_to_another_machine() -> None:
     import pickle
 
     job = GradingJob("anna", "walk_to", {}, 0, True, "1", recorded=True)
-    outcome = Outcome(
-        Grade("walk_to", "anna", "namespaces"), "namespaces", recordings={"walk.mcap": b"\x89MCAP"}
-    )
+    outcome = Outcome(Grade("walk_to", "anna", "namespaces"), recordings={"walk.mcap": b"\x89MCAP"})
     assert pickle.loads(pickle.dumps(job)).recorded
     assert pickle.loads(pickle.dumps(outcome)).recordings == {"walk.mcap": b"\x89MCAP"}
 
