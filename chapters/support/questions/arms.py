@@ -34,7 +34,7 @@ QUESTIONS = (
                 "0.2 rad is four times the goal tolerance. At the end of an arm of half a metre it is 10 cm.",
             ),
             Choice(
-                "The goal tolerance, when the trajectory's time and the server's patience are over.",
+                "The goal tolerance, some time after the end.",
                 "On the way an error of 0.2 rad is allowed. At the end it is not.",
                 right=True,
             ),
@@ -49,7 +49,7 @@ QUESTIONS = (
                 "then your empty trajectory would stop that goal's motion.",
             ),
             Choice(
-                "An empty trajectory, then abort() with a code and the joint's name.",
+                "An empty trajectory, then abort() with a code.",
                 "The motion ends first, and only then the client is informed.",
                 right=True,
             ),
@@ -125,12 +125,12 @@ PREDICTIONS = (
         "Two points, both with velocities=[0.0]. What does the elbow do at the middle one?",
         (
             Choice(
-                "It passes at a constant speed: the two halves are equally long.",
+                "It passes at a constant speed.",
                 "A sensible guess: that is what happens without velocities. But a velocity of 0 at a point is a "
                 "command like any other velocity.",
             ),
             Choice(
-                "The robot ignores the message: with a velocity of 0 nothing can move.",
+                "The robot ignores the message.",
                 "A sensible guess: 0 rad/s sounds like the speed of the whole motion. But it is only the speed at that "
                 "point; between the points the joint moves.",
             ),
@@ -145,7 +145,7 @@ PREDICTIONS = (
         "The left elbow moves, and a new trajectory names only the right elbow. What does the left one do?",
         (
             Choice(
-                "It goes on to its end: the new trajectory does not name it.",
+                "It goes on to its end.",
                 "A sensible guess: no command stops it. But the robot follows one trajectory at a time, and the "
                 "new one has no positions for the left elbow.",
             ),
@@ -170,12 +170,12 @@ PREDICTIONS = (
                 right=True,
             ),
             Choice(
-                "ABORTED: the robot notices that it cannot move.",
+                "ABORTED, on the way.",
                 "A sensible guess: the motors push and the joint doesn't move. But the topic "
                 "joint_trajectory carries no answer, and the server doesn't read joint_states.",
             ),
             Choice(
-                "Not at all: the server waits until the elbow arrives.",
+                "Not at all: it waits for the elbow.",
                 "A sensible guess: the goal isn't reached. But this server waits for the time to pass, not for "
                 "the elbow.",
             ),
@@ -205,7 +205,7 @@ PREDICTIONS = (
         "The fingers press with 0.6 N each, and the hand goes up by 10 cm. Where is the cup?",
         (
             Choice(
-                "In the hand, 10 cm up: the hand is closed.",
+                "In the hand, 10 cm up.",
                 "A sensible guess: it looks like a grasp. But friction carries the cup, and 0.6 N gives too little of "
                 "it.",
             ),

@@ -136,7 +136,7 @@ PREDICTIONS = (
                 "goal has ended. And a server doesn't check whether its client exists.",
             ),
             Choice(
-                "It walks on, although nobody waits for it.",
+                "It walks on: go_ahead knows nothing of the errand.",
                 "No cancel request was sent to go_ahead, so go_ahead executes its goal to the end.",
                 right=True,
             ),
@@ -175,7 +175,7 @@ PREDICTIONS = (
                 "A sensible guess: such a status would be useful. But the server publishes the status, and it's dead.",
             ),
             Choice(
-                "Nothing.",
+                "Nothing: no answer looks like a late answer.",
                 "Feedback stops, and nothing else happens. Only with a time limit can the errand conclude that the "
                 "legs are dead.",
                 right=True,

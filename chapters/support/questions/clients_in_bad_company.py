@@ -30,7 +30,7 @@ QUESTIONS = (
         "A client stores every response in self.answer. After a time-out it asks again. What can go wrong?",
         (
             Choice(
-                "The late answer to the first request is taken for the answer to the second.",
+                "The late first answer is taken for the second one.",
                 "rclpy gives each response to its own future, but the shared variable doesn't say to which request an "
                 "answer belongs.",
                 right=True,
@@ -89,12 +89,12 @@ QUESTIONS = (
         "does the server get?",
         (
             Choice(
-                "Twice the second request.",
+                "Twice the second request, because both are the same object.",
                 "It would, if rclpy sent the object later. But call_async turns the fields into bytes at once, so the "
                 "server gets both requests. Only your own object holds the second one.",
             ),
             Choice(
-                "Both requests as they were; but the object now holds only the second.",
+                "Both requests; but the object now holds only the second.",
                 "The answers are right. But if you print the first answer beside the request object, you print it "
                 "beside the second request.",
                 right=True,
@@ -114,7 +114,7 @@ QUESTIONS = (
                 "a name.",
             ),
             Choice(
-                "Nothing. Both servers have done the work, and the client got the first answer.",
+                "Nothing: both did the work, and the first answer came through.",
                 "So when answers contradict each other, count the servers.",
                 right=True,
             ),

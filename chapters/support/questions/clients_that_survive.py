@@ -136,12 +136,12 @@ PREDICTIONS = (
                 "unless you pass one, so both clients wait until the lab stops them.",
             ),
             Choice(
-                "The first waits forever; the second gets an error, because its server is gone.",
+                "The first waits forever; the second gets an error.",
                 "A sensible guess: a broken TCP connection does raise an error. But a ROS service has no "
                 "connection, and a killed server sends no notice. The second client waits forever, too.",
             ),
             Choice(
-                "Neither ends by itself.",
+                "Neither ends by itself, however long you wait.",
                 "The client waits without a limit, and it isn't notified when its server dies.",
                 right=True,
             ),
@@ -173,12 +173,12 @@ PREDICTIONS = (
         "ask_for.py gets a time limit of -0.1 s, and the server doesn't answer for 30 s. What does it do?",
         (
             Choice(
-                "It prints None at once: the time is up.",
+                "It prints None at once.",
                 "A sensible guess: you would want that, and rclpy does so with 0.0. But it treats a negative "
                 "limit as no limit, so the client waits.",
             ),
             Choice(
-                "It ends with a ValueError: a time can't be negative.",
+                "It ends with a ValueError.",
                 "A sensible guess: that would be more helpful. But rclpy accepts a negative limit without a warning "
                 "and treats it as no limit, so the client waits.",
             ),

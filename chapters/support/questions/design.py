@@ -15,7 +15,7 @@ QUESTIONS = (
                 "ROS doesn't stop the robot. But nodes have to know, or they send goals to a robot without power.",
             ),
             Choice(
-                "It's informed afterwards: a latched topic reports the stop, and servers reject goals meanwhile.",
+                "It's told afterwards: a latched topic, and servers that reject goals.",
                 "A wire, a relay and the drives stop the robot, whether a program runs or not.",
                 right=True,
             ),

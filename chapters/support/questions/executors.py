@@ -29,17 +29,17 @@ PREDICTIONS = (
         "The same node, now on a MultiThreadedExecutor with four threads. How long is the longest gap?",
         (
             Choice(
-                "0.1 s: one thread sleeps, three are free.",
+                "0.1 s: three threads are free.",
                 "A sensible guess: the threads are free. But both callbacks are in the node's default group, which "
                 "is mutually exclusive: it lets in one callback at a time, on however many threads.",
             ),
             Choice(
-                "About 1 s: the executor shares the time between the callbacks.",
+                "About 1 s: each gets its share.",
                 "A sensible guess: operating systems share time like that. But an executor never interrupts a "
                 "callback. Either the group lets beat run beside look_around, or beat waits until look_around ends.",
             ),
             Choice(
-                "3 s again.",
+                "3 s, as on one thread.",
                 "Both callbacks are in the node's default group. It lets in one callback at a time, on however many "
                 "threads.",
                 right=True,
@@ -56,13 +56,13 @@ PREDICTIONS = (
                 "`await`. time.sleep is not awaited, so it keeps the thread.",
             ),
             Choice(
-                "3 s.",
+                "3 s, as without async.",
                 "A coroutine gives its thread back only at an `await`. There is none here, so time.sleep keeps the "
                 "only thread.",
                 right=True,
             ),
             Choice(
-                "There are no heartbeats at all: rclpy refuses async callbacks.",
+                "No heartbeat comes: rclpy refuses async.",
                 "A sensible guess: some libraries do. But rclpy accepts coroutines as callbacks. It runs "
                 "them until they await, and this one never awaits.",
             ),
@@ -157,12 +157,12 @@ QUESTIONS = (
         "await asyncio.sleep(1.0) in an rclpy callback raises “no running event loop”. Why?",
         (
             Choice(
-                "main has to call asyncio.run(rclpy.spin(node)).",
+                "main has to start asyncio's event loop: asyncio.run(rclpy.spin(node)).",
                 "rclpy.spin(node) is an ordinary function, which returns when the node ends. While it runs, there is "
                 "no event loop.",
             ),
             Choice(
-                "rclpy's executor resumes coroutines by itself, without asyncio's event loop.",
+                "rclpy's executor resumes coroutines without asyncio's event loop.",
                 "So you await rclpy's futures: the futures of clients, or one that a timer completes.",
                 right=True,
             ),
@@ -219,13 +219,13 @@ QUESTIONS = (
                 "does anybody want to watch the progress, or to cancel?",
             ),
             Choice(
-                "Yes: nobody wants to watch it or cancel it, and its answer is all that counts.",
+                "Yes: nobody watches it or cancels it, and only its answer counts.",
                 "A client can wait for 3 s with a time limit of, say, 5 s. Your task is to let the node run its other "
                 "callbacks meanwhile.",
                 right=True,
             ),
             Choice(
-                "Yes, because it moves nothing.",
+                "Yes, because it moves nothing: only what moves has to be an action.",
                 "A move can be a service too, if nobody needs to stop it half way. Cancel and progress decide.",
             ),
         ),

@@ -12,12 +12,12 @@ QUESTIONS = (
                 "goal is.",
             ),
             Choice(
-                "Because it can then go back to an earlier phase, when a push makes that necessary.",
+                "Because it can then go back to an earlier phase after a push.",
                 "Three loops can't go back to an earlier phase. After a push they end at the wrong place.",
                 right=True,
             ),
             Choice(
-                "Because odom drifts, and one loop corrects that.",
+                "Because odom drifts, and a loop that looks again corrects that.",
                 "No loop can detect the drift of odom, because it measures with odom. It can only detect that the "
                 "robot has left its path.",
             ),
@@ -45,16 +45,16 @@ QUESTIONS = (
         "What belongs in estimated_time_remaining, when a turn and a walk lie ahead?",
         (
             Choice(
-                "The sum of both parts, each at the speed that the robot really reaches: rad/s to turn, m/s to walk.",
+                "Turn and walk added up, each at the speed that the robot really reaches.",
                 "A turn takes seconds but no metres, so it needs a speed of its own. Measure both speeds.",
                 right=True,
             ),
             Choice(
-                "The distance, divided by the speed that you command.",
+                "The distance that is left, divided by the speed that you command.",
                 "The robot clamps a command, and it slips. And this formula leaves out the time for the turn.",
             ),
             Choice(
-                "The distance, divided by the speed of the last two seconds.",
+                "The distance that is left, divided by the mean speed of the last two seconds.",
                 "That is right while the robot walks. But while it turns, the speed is about 0, so the estimate is "
                 "far too long. Even with a lower limit for the speed it is wrong by more than a factor of two.",
             ),
@@ -145,7 +145,7 @@ PREDICTIONS = (
         "loops end?",
         (
             Choice(
-                "SUCCEEDED, at the goal: the server measures with odom.",
+                "SUCCEEDED, at the goal.",
                 "A sensible guess: odom does measure the turn. But the server uses odom only for the distance walked, "
                 "and never checks again where the goal is.",
             ),
@@ -155,7 +155,7 @@ PREDICTIONS = (
                 right=True,
             ),
             Choice(
-                "ABORTED: the server sees that the robot is not there.",
+                "ABORTED: the robot isn't there.",
                 "A sensible guess: the server has the data for that. But its code doesn't compare them, and rclpy "
                 "doesn't know what a goal means.",
             ),

@@ -27,11 +27,11 @@ QUESTIONS = (
         "A node has a parameter that is declared with 276.0. Somebody types `ros2 param set … 300`. What happens?",
         (
             Choice(
-                "The node takes 300.0, because every integer is a number.",
+                "The node takes 300.0, because every integer is also a number.",
                 "Python would do that. A declared parameter keeps its type, and ROS 2 converts nothing.",
             ),
             Choice(
-                "The set is refused with a reason, and the command's exit status is 0.",
+                "The set is refused, and the command's exit status is 0.",
                 "The command sent its request and printed the answer, so it exits with 0. A script that checks only "
                 "the exit status believes that the set was accepted.",
                 right=True,
@@ -128,7 +128,7 @@ QUESTIONS = (
                 "A set may be refused, for example because of its type, and even then ros2 param set exits with 0.",
             ),
             Choice(
-                "By hardware. A topic is good enough for an ordinary stop only, and a parameter for no stop at all.",
+                "By hardware; a topic is for an ordinary stop at most.",
                 "A wire needs no program and no network. A parameter is a setting, and a set may be refused.",
                 right=True,
             ),
@@ -246,7 +246,7 @@ PREDICTIONS = (
         "What does it have afterwards?",
         (
             Choice(
-                "0.1 and 0.2: the node has had these values before.",
+                "0.1 and 0.2.",
                 "A sensible guess: together they are valid. But load sets them one by one, and 0.1 doesn't fit 0.45.",
             ),
             Choice(
@@ -255,7 +255,7 @@ PREDICTIONS = (
                 right=True,
             ),
             Choice(
-                "0.2 and 0.45: the file is loaded whole or not at all.",
+                "0.2 and 0.45.",
                 "A sensible guess: a file looks like one thing. But load sends it to set_parameters, not to "
                 "set_parameters_atomically.",
             ),

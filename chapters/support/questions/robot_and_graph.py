@@ -37,7 +37,7 @@ QUESTIONS = (
                 "walk.py only commands a speed. The robot balances by itself, 200 times a second.",
             ),
             Choice(
-                "Half a second after the last command the robot finishes its step and stands.",
+                "The robot finishes its step and stands, some 0.5 s later.",
                 "A crashed program can't command a stop. The robot's watchdog notices that no commands arrive.",
                 right=True,
             ),

@@ -36,7 +36,7 @@ QUESTIONS = (
                 "The server can die before, during or after the work.",
             ),
             Choice(
-                "Nothing: the server may have carried it out wholly, in part, or not at all.",
+                "Nothing: it may be done, half done, or not done.",
                 "So repeat a request only if asking twice does no harm.",
                 right=True,
             ),
@@ -46,12 +46,12 @@ QUESTIONS = (
         "wait_for_service() has just returned True. What does that mean?",
         (
             Choice(
-                "The server is alive and will answer.",
+                "The server is alive, and will answer as soon as it has time.",
                 "With Fast DDS a killed server looks alive for up to 20 s. A busy or deadlocked server "
                 "looks alive as long as it runs.",
             ),
             Choice(
-                "A server of this name and type has been discovered and hasn't said that it leaves.",
+                "A server of this name and type has announced itself.",
                 "Discovery knows no more than that. Only the time limit on the call protects you.",
                 right=True,
             ),
@@ -70,13 +70,13 @@ QUESTIONS = (
                 "and that thread waits in call().",
             ),
             Choice(
-                "A deadlock: the thread that waits for the response is the only one that could receive it.",
+                "A deadlock: only the thread that waits could receive the response.",
                 "Respond with data that your node already has. If you must call another server, chapter 5 shows "
                 "how: async, await and a second callback group.",
                 right=True,
             ),
             Choice(
-                "rclpy raises an exception, because this is forbidden.",
+                "rclpy raises an exception, because a call in a callback is forbidden.",
                 "rclpy raises nothing and prints nothing. The node never responds again.",
             ),
         ),

@@ -26,11 +26,11 @@ QUESTIONS = (
         "Your goal was rejected. How do you learn why?",
         (
             Choice(
-                "From the result's error_msg.",
+                "From the error_msg of the result, which comes with the rejection.",
                 "A rejected goal never runs, so it has no result.",
             ),
             Choice(
-                "Not from the goal response: it has accepted and a time, and nothing else.",
+                "Not from the goal response: it has no field for a reason.",
                 "If the client's user must know the reason, the server accepts the goal and aborts it with a code.",
                 right=True,
             ),
@@ -52,7 +52,7 @@ QUESTIONS = (
                 "The last command is valid for half a second, and then the robot needs another step to stop.",
             ),
             Choice(
-                "When the robot stands, and a measurement made then is within the tolerance.",
+                "When the robot stands, and stands within the tolerance.",
                 "Stop, settle, measure. Then the robot really is at the goal when the client reads SUCCEEDED.",
                 right=True,
             ),
@@ -226,12 +226,12 @@ PREDICTIONS = (
         "The server keeps a result for 2 s. The client asks for it 4 s after the robot has arrived. What does it get?",
         (
             Choice(
-                "Status 4, and the steps: a result is kept until somebody fetches it.",
+                "Status 4, and the steps.",
                 "A sensible guess: a parcel shop works like that. But the server discarded the result "
                 "after two seconds, although no client had read it.",
             ),
             Choice(
-                "No answer: the request waits forever.",
+                "No answer.",
                 "A sensible guess: the server doesn't know the goal any more. But it does respond, with the status "
                 "UNKNOWN.",
             ),

@@ -50,7 +50,7 @@ QUESTIONS = (
                 right=True,
             ),
             Choice(
-                "Nothing, because success is clear.",
+                "Nothing, because success is clear, and every program knows a bool.",
                 "It repeats the goal's status and can contradict it, such as status SUCCEEDED with success false. "
                 "Then the client can't know which one counts.",
             ),
@@ -75,7 +75,7 @@ QUESTIONS = (
                 "The old node read the definition when it imported the type. A running process doesn't read it again.",
             ),
             Choice(
-                "They connect, and the receiver reads the bytes of one field as another field.",
+                "They connect, and the bytes of one field are read as another.",
                 "Only the bytes are sent, in the order of the definition. "
                 "After a change, restart every program that uses the type.",
                 right=True,
@@ -86,7 +86,7 @@ QUESTIONS = (
         "acos gets 1.38 for a target 0.6 m away, in a service callback. What should the client of the service see?",
         (
             Choice(
-                "An error code, NO_IK_SOLUTION, and a sentence with the distance and the reach.",
+                "The error code NO_IK_SOLUTION, and a sentence.",
                 "A target out of reach is an expected outcome: the interface has a code for it.",
                 right=True,
             ),
@@ -115,7 +115,7 @@ QUESTIONS = (
                 right=True,
             ),
             Choice(
-                "The default stays, with a warning.",
+                "The default stays, and the node's log has a warning.",
                 "There is no warning: declare_parameter raises.",
             ),
         ),

@@ -32,6 +32,11 @@ def test_a_sleep_stops_the_heartbeat_on_one_thread_in_one_group_and_in_a_corouti
     assert gap_in(chapter.text(cell)) > LONG
 
 
+def test_a_coroutine_gives_its_thread_back_at_the_await_and_goes_on_after_it(chapter: Executed) -> None:
+    said = ["the dish is in the oven", "the cook is free", "the dish is out", "nothing is left to do"]
+    assert chapter.text("m3-by-hand").splitlines() == said
+
+
 @pytest.mark.parametrize("cell", ["groups-run", "await-run"])
 def test_groups_or_an_await_keep_it_punctual(chapter: Executed, cell: str) -> None:
     assert "looked left and right" in chapter.text(cell)

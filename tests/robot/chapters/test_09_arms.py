@@ -92,6 +92,14 @@ def test_an_aborted_arm_jumps_when_it_is_let_go_unless_it_was_told_to_hold(chapt
     assert chapter.html("release-films").count('alt="The robot for') == 2
 
 
+def test_an_arm_that_is_told_to_stay_where_it_is_measured_hardly_presses_or_jumps(chapter: Executed) -> None:
+    printed = chapter.text("release-yield-run")
+    before, after = re.search(r"let go at (-[\d.]+) rad, it went to (-[\d.]+) rad", printed).groups()
+    assert "end: ABORTED" in printed
+    assert abs(float(before) - float(after)) < 0.1
+    assert number(r"presses with ([\d.]+) N·m", printed) < 10
+
+
 def test_the_cup_is_seen_and_what_is_too_far_is_refused(chapter: Executed) -> None:
     assert in_order(chapter.text("cup-look"), "x: 0.3", "error_code=-31", "too short")
     assert "around the cup: True" in chapter.text("reach")
