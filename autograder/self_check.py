@@ -57,7 +57,7 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
     Raises `UnusableSubmission` when the file cannot be read.
     """
     console = _console()
-    if console.is_jupyter:
+    if Console().is_jupyter:
         save_notebook()
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
     result = check_and_keep(console, path, exercise)

@@ -42,7 +42,7 @@ def watch_robot(camera: str = "track") -> ipywidgets.Image | ipywidgets.Label | 
     """
     topics.odometry()  # raises at once when there is no robot
     view = _running
-    if view and view.panel and view.camera == camera:
+    if view and view.panel and view.camera == camera and view.is_drawing:
         view.panel.open()
     else:
         view = _watch(camera)
@@ -93,9 +93,14 @@ class _LiveView:
         self._thread.start()
 
     @property
+    def is_drawing(self) -> bool:
+        """Whether the view has not ended."""
+        return self._thread.is_alive()
+
+    @property
     def lost_its_robot(self) -> bool:
         """Whether the view has ended because another notebook has started a robot."""
-        return self._problem is None and not self._thread.is_alive()
+        return not self.is_drawing and self._problem is None
 
     def wait_for_first_frame(self) -> None:
         """Wait for the first frame; raise the error that prevented it."""
