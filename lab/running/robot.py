@@ -12,6 +12,7 @@ from lab.client.waiting import becomes_true
 from lab.errors import NoRobotError
 from lab.pictures.live_view import watch_beside_the_notebook
 from lab.running.processes import GRACE, Process
+from robot_sim.model.scenes import OBJECTS
 from ros_runtime.notebook_domains import announce_robot, expect_node, forget_node, robot_of_another_notebook
 
 START_TIMEOUT = 30.0  # s
@@ -35,9 +36,10 @@ def start_robot(scene: str = "flat") -> None:
     if _robot is None or not _robot.is_running:
         ended = _end_robot_of_another_notebook()
         topics.reset_for_scene(scene)
-        _robot = Process(
-            ["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1", "--scene", scene, "--may-rest"]
-        )
+        rest = (
+            () if OBJECTS[scene] else ("--may-rest",)
+        )  # the cup never lies so still that the robot could rest
+        _robot = Process(["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1", "--scene", scene, *rest])
         announce_robot(domain_id, _robot.pid)
     watch_beside_the_notebook()
     robot = _robot
