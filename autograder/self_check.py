@@ -21,13 +21,12 @@ from autograder.recording.kept import Recordings, keep
 from autograder.report.running import RunningLine
 from autograder.report.table import grade_table, print_beginning, print_retry, print_verdict, summary
 from ros_runtime.self_checks import store_check
+from ros_runtime.workarounds.jupyterlab_page import save_notebook
 
 if TYPE_CHECKING:
     from autograder.recording.recorder import Recorder
     from autograder.report.notebook_table import NotebookTable
 
-# What JupyterLab's own button does; other editors ignore it.
-_SAVE = "document.querySelector('.jp-NotebookPanel:not(.lm-mod-hidden) [data-command=\"docmanager:save\"]')?.click()"
 NOTEBOOK_WIDTH = 104  # characters; fits into JupyterLab with its file browser on a screen of 1280 pixels
 
 
@@ -58,7 +57,8 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
     Raises `UnusableSubmission` when the file cannot be read.
     """
     console = _console()
-    _save_notebook()
+    if Console().is_jupyter:
+        save_notebook()
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
     result = check_and_keep(console, path, exercise)
     for line in (
@@ -68,17 +68,6 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
         if line:
             console.print(line)
     return SelfCheck(result)
-
-
-def _save_notebook() -> None:
-    """Have JupyterLab save the notebook that is shown, while its cell runs on."""
-    if Console().is_jupyter:
-        from IPython.display import Javascript, display  # not needed in a terminal
-
-        shown = display(Javascript(_SAVE), display_id=True)
-        if shown is not None:
-            # the script must not stay in the notebook, because it would run again when the notebook is opened
-            shown.update({"text/plain": ""}, raw=True)
 
 
 def check_and_keep(

@@ -1,8 +1,8 @@
-"""The ROS domains of the lab's notebooks, which the terminals beside them join.
+"""The ROS domains of the lab's notebooks, which the terminals beside them join, and the robots in them.
 
 Each notebook has a domain of its own. `course lab` creates a file and passes its path to all kernels and terminals in
-an environment variable. A notebook appends its domain to the file when it joins the domain. The file is in memory and
-disappears when the lab's process ends.
+an environment variable. A notebook appends its domain to the file when it joins the domain, and its robot when it has
+started one. The file is in memory and disappears when the lab's process ends.
 """
 
 from __future__ import annotations
@@ -10,12 +10,24 @@ from __future__ import annotations
 import os
 from contextlib import suppress
 from pathlib import Path
+from typing import NamedTuple
 
 from ros_runtime.ros_domain import is_reserved
 
 VARIABLE = "COURSE_NOTEBOOK_DOMAINS"
 EXPECTED = "COURSE_NOTEBOOK_NODES"  # variable in a notebook's cells: full names of the nodes that run
+NOTEBOOK = (
+    "JPY_SESSION_NAME"  # Jupyter's variable with the path of a kernel's notebook; terminals do not have it
+)
 _FILE = "course-lab-domains"
+
+
+class LabRobot(NamedTuple):
+    """A robot that a notebook of the lab has started, and the process id of its simulator."""
+
+    domain_id: int
+    pid: int
+    notebook: str
 
 
 def lab_variables() -> dict[str, str]:
@@ -29,16 +41,48 @@ def lab_variables() -> dict[str, str]:
 
 def announce(domain_id: int) -> None:
     """Add this notebook's domain to the lab's file, if it runs in a lab."""
-    if file := _file_of_the_lab():
-        with file.open("a", encoding="utf-8") as domains:
-            domains.write(f"{domain_id}\n")
+    _append(f"{domain_id}")
+
+
+def announce_robot(domain_id: int, pid: int) -> None:
+    """Add the robot that this notebook has started to the lab's file, if it runs in a lab."""
+    if is_notebook_of_a_lab():
+        _append(f"{domain_id} {pid} {Path(os.environ[NOTEBOOK]).name}")
+
+
+def robot_of_another_notebook() -> LabRobot | None:
+    """Return the lab's last robot, if another notebook than this one has started it; it may have ended since."""
+    robots = [LabRobot(int(line[0]), int(line[1]), line[2]) for line in _lines() if len(line) == 3]
+    if (
+        not robots
+        or not is_notebook_of_a_lab()
+        or str(robots[-1].domain_id) == os.environ.get("ROS_DOMAIN_ID")
+    ):
+        return None
+    return robots[-1]
+
+
+def is_notebook_of_a_lab() -> bool:
+    """Whether this process is the kernel of a notebook that `course lab` serves, so JupyterLab shows it."""
+    return NOTEBOOK in os.environ and _file_of_the_lab() is not None
 
 
 def latest() -> int | None:
     """Return the domain that was joined last by a notebook that still runs; None if there is none."""
+    return next((int(line[0]) for line in reversed(_lines()) if is_reserved(int(line[0]))), None)
+
+
+def _append(line: str) -> None:
+    if file := _file_of_the_lab():
+        with file.open("a", encoding="utf-8") as announced:
+            announced.write(f"{line}\n")
+
+
+def _lines() -> list[list[str]]:
+    """Return the lines of the lab's file: a domain, or a domain, a process id and a notebook."""
     file = _file_of_the_lab()
-    announced = file.read_text(encoding="utf-8").split() if file else []
-    return next((int(domain) for domain in reversed(announced) if is_reserved(int(domain))), None)
+    announced = file.read_text(encoding="utf-8").splitlines() if file else []
+    return [line.split(maxsplit=2) for line in announced]
 
 
 def _file_of_the_lab() -> Path | None:

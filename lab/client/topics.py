@@ -25,6 +25,7 @@ from lab.errors import NoRobotError
 from robot_sim.model.scenes import OBJECTS
 from ros_runtime.angles import yaw_of
 from ros_runtime.message_constants import RobotMode, name_of
+from ros_runtime.notebook_domains import robot_of_another_notebook
 
 QUEUE_DEPTH = 100  # messages, which are five seconds of odom: a busy notebook loses none
 LATCHED = QoSProfile(depth=QUEUE_DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -85,6 +86,11 @@ def latest(topic: str, timeout: float = 5.0) -> Any:
     """
     stored = _last_messages()
     if not becomes_true(lambda: stored.age(topic) <= MAX_AGE, timeout):
+        if other := robot_of_another_notebook():
+            raise NoRobotError(
+                f"the robot of this notebook ended when {other.notebook} started one: you have one robot at a time. "
+                "lab.start_robot() brings it back"
+            )
         raise NoRobotError(
             f"no message arrived on {NAMESPACE}/{topic} for {timeout:g} s; does the robot run? Try lab.start_robot()"
         )

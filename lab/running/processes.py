@@ -45,6 +45,11 @@ class Process:
         self._errors = _LastLines(self._popen.stderr) if own_stderr else None
 
     @property
+    def pid(self) -> int:
+        """The id of the process and of its group."""
+        return self._popen.pid
+
+    @property
     def is_running(self) -> bool:
         """Whether the process is still running."""
         return self._popen.poll() is None

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import signal
+
+import psutil
+
 from lab.client import topics
 from lab.client.connection import NAMESPACE, connection
 from lab.client.waiting import becomes_true
 from lab.errors import NoRobotError
-from lab.running.processes import Process
-from ros_runtime.notebook_domains import expect_node, forget_node
+from lab.pictures.live_view import watch_beside_the_notebook
+from lab.running.processes import GRACE, Process
+from robot_sim.model.scenes import OBJECTS
+from ros_runtime.notebook_domains import announce_robot, expect_node, forget_node, robot_of_another_notebook
 
 START_TIMEOUT = 30.0  # s
 NODE_NAME = f"{NAMESPACE}/humanoid"
@@ -18,6 +24,7 @@ _robot: Process | None = None
 def start_robot(scene: str = "flat") -> None:
     """Start the robot and wait for the first message on each of its topics; do nothing if it is already running.
 
+    In `course lab` the robot is shown beside the notebook, and a robot that another notebook has started ends.
     In the scene "stand" a stand holds the robot by the chest, so that it does not fall without power. In the scene
     "table" there are a table and a cup.
 
@@ -25,9 +32,16 @@ def start_robot(scene: str = "flat") -> None:
     """
     global _robot
     domain_id = connection().domain_id  # also sets the environment that the child inherits
+    ended = ""
     if _robot is None or not _robot.is_running:
+        ended = _end_robot_of_another_notebook()
         topics.reset_for_scene(scene)
-        _robot = Process(["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1", "--scene", scene])
+        rest = (
+            () if OBJECTS[scene] else ("--may-rest",)
+        )  # the cup never lies so still that the robot could rest
+        _robot = Process(["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1", "--scene", scene, *rest])
+        announce_robot(domain_id, _robot.pid)
+    watch_beside_the_notebook()
     robot = _robot
     if not becomes_true(lambda: topics.has_published() or not robot.is_running, START_TIMEOUT):
         raise NoRobotError(
@@ -40,7 +54,25 @@ def start_robot(scene: str = "flat") -> None:
         )
     forget_node(NODE_NAME)  # an entry of a robot that was already running, or that crashed
     expect_node(NODE_NAME)
-    print(f"The robot is up in namespace {NAMESPACE}, ROS_DOMAIN_ID {domain_id}.")
+    print(f"The robot is up in namespace {NAMESPACE}, ROS_DOMAIN_ID {domain_id}.{ended}")
+
+
+def _end_robot_of_another_notebook() -> str:
+    """End the robot that another notebook of the lab has started; return a sentence about it, "" if there is none."""
+    other = robot_of_another_notebook()
+    if other is None:
+        return ""
+    try:
+        robot = psutil.Process(other.pid)
+        if "robot_sim" not in robot.cmdline():  # it has ended, and another process has its id
+            return ""
+        robot.send_signal(signal.SIGINT)
+        robot.wait(GRACE)
+    except psutil.NoSuchProcess:
+        return ""
+    except psutil.TimeoutExpired:
+        robot.kill()
+    return f" The robot of {other.notebook} has ended: you have one robot at a time."
 
 
 def robot_process() -> Process:

@@ -105,6 +105,7 @@ def _watch() -> set[bytes]:
     view = watch_robot()
     if isinstance(view, ipywidgets.Label):
         raise NoOpenGLError(view.value)
+    assert isinstance(view, ipywidgets.Image)  # no lab has started this process
     seen: set[bytes] = set()
     view.observe(lambda change: seen.add(change["new"]), "value")
     return seen

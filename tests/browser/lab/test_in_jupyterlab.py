@@ -18,7 +18,7 @@ import psutil
 import pytest
 from nbformat.v4 import new_code_cell, new_notebook
 from PIL import Image
-from playwright.sync_api import Page, sync_playwright
+from playwright.sync_api import Locator, Page, sync_playwright
 
 from autograder.classroom.archives.student_bundle import TOP, write_bundle
 from chromium import CHROMIUM, OFFLINE, needs_chromium
@@ -100,6 +100,39 @@ def test_from_the_start_page_to_a_robot_that_walks(page: Page) -> None:
         assert time.monotonic() < deadline, f"the picture has not moved within {TIMEOUT:g} s"
 
 
+def test_the_robot_is_shown_beside_the_notebook_that_has_it(page: Page, folder: Path, address: str) -> None:
+    for name in ("first", "second"):
+        write(folder / f"{TOP}/chapters/{name}.ipynb", new_code_cell("import lab\n\nlab.start_robot()"))
+    page.set_viewport_size({"width": 1280, "height": 720})
+    run_first_cell(page, address, "first")
+    picture = page.locator(".course-live img")
+    page.get_by_text("STANDING at").wait_for()
+    shown, text = picture.bounding_box(), page.get_by_label("first.ipynb").bounding_box()
+    assert shown
+    assert text
+    assert text["width"] > 600
+    assert text["x"] + text["width"] <= shown["x"]
+    assert shown["y"] + shown["height"] < 720
+
+    page.reload()
+    page.get_by_text("STANDING at").wait_for()
+    assert page.get_by_text("model not found").count() == 0
+
+    run_first_cell(page, address, "second")
+    page.get_by_text("The robot of first.ipynb has ended").wait_for()
+    page.get_by_text("STANDING at").wait_for()
+    assert panels(page).count() == 1
+
+    page.get_by_role("menuitem", name="Kernel", exact=True).click()
+    page.get_by_text("Restart Kernel…", exact=True).first.click()
+    page.get_by_role("button", name="Confirm Kernel Restart").click()
+    ended = page.get_by_text("This picture no longer moves")
+    ended.wait_for()
+    run_first_cell(page, address, "second")
+    ended.wait_for(state="hidden")
+    assert panels(page).count() == 1
+
+
 def test_the_first_page_shows_what_is_done_and_a_first_step(page: Page) -> None:
     page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
     page.get_by_text("import lab").click()
@@ -115,8 +148,7 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
         new_code_cell('import lab\n\nprediction_1 = lab.predict("services", 1)\nprediction_1'),
         new_code_cell("prediction_1.reply()"),
     ]
-    kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3 (ipykernel)"}}
-    nbformat.write(new_notebook(cells=cells, metadata=kernel), folder / TOP / "chapters" / "predict.ipynb")
+    write(folder / TOP / "chapters" / "predict.ipynb", *cells)
     page.goto(address.replace("start_here.ipynb", "chapters/predict.ipynb") + "&reset")
     page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
     notebook = page.get_by_label("predict.ipynb")  # others are open, too
@@ -156,6 +188,23 @@ def test_a_self_check_saves_the_program_that_it_checks(page: Page, folder: Path,
     assert "failed: Each of the twelve situations" in failed.inner_text()
     failed.get_by_role("link", name="Topic, service or action?").click()
     page.get_by_role("heading", name="Topic, service or action?").wait_for()
+
+
+def write(notebook: Path, *cells: nbformat.NotebookNode) -> None:
+    kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3 (ipykernel)"}}
+    nbformat.write(new_notebook(cells=cells, metadata=kernel), notebook)
+
+
+def run_first_cell(page: Page, address: str, name: str) -> None:
+    """Open a chapter in a page without the tabs of earlier ones, and run its cell."""
+    page.goto(address.replace("start_here.ipynb", f"chapters/{name}.ipynb") + "&reset")
+    page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
+    page.get_by_label(f"{name}.ipynb").get_by_text("import lab").click()
+    page.keyboard.press("Shift+Enter")
+
+
+def panels(page: Page) -> Locator:
+    return page.locator(".jp-SideBar.jp-mod-right .lm-TabBar-tab", has_text="Robot")
 
 
 def seen(page: Page) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""The terminals of a lab find the domain of a notebook."""
+"""The terminals of a lab find the domain of a notebook, and its notebooks the robot that one of them has started."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ros_runtime.ros_domain import ReservedDomain
 @pytest.fixture(autouse=True)
 def own_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    for name in ("ROS_DOMAIN_ID", notebook_domains.VARIABLE):
+    for name in ("ROS_DOMAIN_ID", notebook_domains.VARIABLE, notebook_domains.NOTEBOOK):
         monkeypatch.setenv(name, "")  # so that it is put back
         monkeypatch.delenv(name)
 
@@ -61,6 +61,37 @@ def test_a_domain_that_the_shell_has_chosen_is_kept(
     join_domain()
     assert os.environ["ROS_DOMAIN_ID"] == "5"
     notebooks[1].release()
+
+
+def test_a_notebook_finds_the_robot_that_another_one_has_started_last(
+    lab: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def becomes(notebook: str, domain_id: int) -> None:
+        monkeypatch.setenv(notebook_domains.NOTEBOOK, notebook)
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(domain_id))
+
+    becomes("/home/me/chapters/01 robot.ipynb", 4)
+    assert notebook_domains.robot_of_another_notebook() is None
+    notebook_domains.announce_robot(4, 1000)
+    assert notebook_domains.robot_of_another_notebook() is None
+    becomes("/home/me/chapters/02_services.ipynb", 5)
+    notebook_domains.announce(5)
+    assert notebook_domains.robot_of_another_notebook() == (4, 1000, "01 robot.ipynb")
+    notebook_domains.announce_robot(5, 1001)
+    assert notebook_domains.robot_of_another_notebook() is None
+    becomes("/home/me/chapters/01 robot.ipynb", 4)
+    assert notebook_domains.robot_of_another_notebook() == (5, 1001, "02_services.ipynb")
+
+
+def test_a_kernel_that_no_notebook_of_the_lab_has_takes_no_robot(
+    lab: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    notebook_domains.announce_robot(4, 1000)  # from a terminal of the lab
+    monkeypatch.setenv(notebook_domains.NOTEBOOK, "/home/me/chapters/01 robot.ipynb")
+    assert notebook_domains.robot_of_another_notebook() is None
+    notebook_domains.announce_robot(4, 1000)
+    monkeypatch.delenv(notebook_domains.NOTEBOOK)
+    assert notebook_domains.robot_of_another_notebook() is None
 
 
 def test_the_lab_leaves_no_file_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

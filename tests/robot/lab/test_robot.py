@@ -9,6 +9,8 @@ import psutil
 import pytest
 from kernels import CellError, Kernel
 
+from ros_runtime.notebook_domains import lab_variables
+
 
 @pytest.fixture(scope="module")
 def robot(kernel: Kernel) -> Kernel:
@@ -63,6 +65,24 @@ def test_it_is_watched_while_it_walks(robot: Kernel) -> None:
     """)
     seen = robot.run("print(len(frames) == seen, next(iter(frames))[:2] == bytes((0xff, 0xd8)))")
     assert seen == "True True\n"
+
+
+def test_a_robot_that_stands_still_is_not_drawn_again(robot: Kernel) -> None:
+    kind = robot.run("lab.restart_robot(); view = lab.watch_robot(); print(type(view).__name__)")
+    if "Label" in kind:
+        pytest.skip(robot.run("print(view.value)"))
+    frames = robot.run("""
+        import time
+        frames = []
+        view.observe(lambda change: frames.append(change["new"]), "value")
+        time.sleep(2)
+        standing = len(frames)
+        with lab.walking(forward=0.3):
+            lab.wait_until(lambda: len(frames) > standing, timeout=20)
+        lab.stop_watching()
+        print(standing)
+    """)
+    assert frames == "0\n"
 
 
 def test_a_film_of_its_walk_is_shown_and_written(robot: Kernel) -> None:
@@ -121,6 +141,28 @@ def test_nothing_survives_the_kernel(own_kernel: Kernel, end: signal.Signals) ->
 def test_robots_of_two_kernels_are_separate(kernel: Kernel, own_kernel: Kernel) -> None:
     question = "print(lab.client.connection.connection().domain_id)"
     assert kernel.run(question) != own_kernel.run(question)
+
+
+def test_another_notebook_of_the_lab_takes_the_robot_over(kernel: Kernel, own_kernel: Kernel) -> None:
+    [(variable, file)] = lab_variables().items()
+    for name, notebook in (("first", kernel), ("second", own_kernel)):
+        notebook.run(f"""
+            import os
+            os.environ.update({{"{variable}": "{file}", "JPY_SESSION_NAME": "/home/me/{name}.ipynb"}})
+            lab.stop_everything()
+        """)
+    assert "has ended" not in kernel.run("lab.start_robot()")
+    robots = kernel.children()
+    assert "The robot of first.ipynb has ended" in own_kernel.run("lab.start_robot()")
+    _, alive = psutil.wait_procs(robots, timeout=0)
+    assert len(robots) == 1
+    assert alive == []
+    with pytest.raises(
+        CellError, match=r"ended when second.ipynb started one: .* lab.start_robot\(\) brings"
+    ):
+        kernel.run("import time; time.sleep(1.2); lab.pose()")
+    assert "The robot of second.ipynb has ended" in kernel.run("lab.start_robot(); lab.pose()")
+    assert own_kernel.children() == []
 
 
 def _await_output(kernel: Kernel, text: str, timeout: float = 30.0) -> None:

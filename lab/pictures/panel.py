@@ -1,0 +1,62 @@
+"""The place of the live picture beside the notebook: a panel of JupyterLab's right side bar."""
+
+from __future__ import annotations
+
+import os
+import time
+from html import escape
+
+import ipywidgets
+from sidecar import Sidecar
+
+from ros_runtime.workarounds.jupyterlab_page import close_old_panel
+
+TITLE = "Robot"
+BEAT_PERIOD = 1.0  # s between two texts
+SILENCE = 8  # s without a text, after which the panel shows that nothing draws into it any more
+_STYLE = f"""<style>
+.course-live img {{ width: 100%; height: auto; }}
+.course-live .widget-html-content {{ white-space: normal; line-height: 1.4; }}
+.course-live .course-ended {{ visibility: hidden; animation: course-ended 0s {SILENCE}s forwards; font-weight: bold; }}
+@keyframes course-ended {{ to {{ visibility: visible; }} }}
+</style>"""
+_ENDED = (
+    "This picture no longer moves: the notebook's kernel has ended, and its robot with it, or the notebook is closed. "
+    "Open the notebook and run the cell with lab.start_robot()."
+)
+
+
+class Panel:
+    """A panel with the picture and a line of text, which JupyterLab shows again when its page is loaded again.
+
+    The browser notices by itself that the robot has ended: each text restarts an animation, whose end shows a sentence.
+    """
+
+    def __init__(self, picture: ipywidgets.Image) -> None:
+        own = f"course-panel-{os.getpid()}"
+        close_old_panel(TITLE, kept=own)
+        self._text = ipywidgets.HTML()
+        self._next_beat = 0.0  # s, time.monotonic()
+        self._box = ipywidgets.VBox([ipywidgets.HTML(_STYLE), picture, self._text])
+        self._box.add_class("course-live").add_class(own)
+        self._sidecar: Sidecar | None = None
+        self.open()
+
+    def open(self) -> None:
+        """Open the panel, again if it is open, because its reader may have closed it."""
+        self.close()
+        self._sidecar = Sidecar(title=TITLE)
+        self._sidecar.append_display_data(self._box)
+
+    def write(self, text: str) -> None:
+        """Show a line of text below the picture, at most once a second."""
+        now = time.monotonic()
+        if now >= self._next_beat:
+            self._next_beat = now + BEAT_PERIOD
+            # the time makes every text a new one, so that the animation restarts
+            self._text.value = f'{escape(text)}<p class="course-ended" data-time="{now:.1f}">{_ENDED}</p>'
+
+    def close(self) -> None:
+        """Remove the panel."""
+        if self._sidecar:
+            self._sidecar.close()
