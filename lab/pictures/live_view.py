@@ -8,6 +8,7 @@ import time
 
 import ipywidgets
 from PIL import Image
+from traitlets import Unicode
 
 from lab.client import topics
 from lab.errors import NoRobotError
@@ -53,11 +54,17 @@ def stop_watching() -> None:
         _running = None
 
 
+class _Picture(ipywidgets.Image):
+    """An image whose `tooltip` is its text alternative: a browser reads the title where there is no alt."""
+
+    description = Unicode("").tag(sync=True)  # without it, ipywidgets' script fails when it sets a title
+
+
 class _LiveView:
     """A widget, and the thread that draws into it; one thread does all drawing, because OpenGL requires that."""
 
     def __init__(self, camera: str) -> None:
-        self.widget = ipywidgets.Image(format="jpeg", width=WIDTH, height=HEIGHT)
+        self.widget = _Picture(tooltip="The robot", format="jpeg", width=WIDTH, height=HEIGHT)
         self._camera = camera
         self._stop = threading.Event()
         self._begun = threading.Event()
@@ -95,6 +102,7 @@ class _LiveView:
             began = time.monotonic()
             try:
                 set_current_posture(body)
+                self.widget.tooltip = f"The robot: {topics.mode()} at {topics.pose()}"
                 self.widget.value = _jpeg(view.picture(self._camera))
             except NoRobotError:  # the robot may be started again
                 pass
