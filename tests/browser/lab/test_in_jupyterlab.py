@@ -23,10 +23,10 @@ from nbformat.v4 import new_code_cell, new_notebook
 from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
-from accessibility import require_accessible
+from accessibility import require_accessible, violations
 from autograder.classroom.archives.student_bundle import TOP, write_bundle
 from chromium import CHROMIUM, OFFLINE, needs_chromium
-from ros_runtime.project import TOOLKIT
+from ros_runtime.project import PROJECT, TOOLKIT
 
 TIMEOUT = 90.0  # s, for each thing a busy machine has to do
 PICTURE = ".jp-OutputArea .widget-image"
@@ -201,6 +201,9 @@ def test_questions_plots_and_drawings_suit_both_themes(page: Page, folder: Path,
     in_both_themes(page, left_out=UNNAMED_SLIDER)
     for drawing in page.locator(".course-drawing").all():
         assert "invert" in drawing.evaluate("drawing => getComputedStyle(drawing).filter")
+    frame = {found["id"] for found in violations(page).response["violations"]}
+    stated = (PROJECT / "docs/accessibility.md").read_text(encoding="utf-8")
+    assert {rule for rule in frame if f"`{rule}`" not in stated} == set()  # what JupyterLab itself lacks
 
 
 def test_the_keyboard_alone_leads_from_the_start_page_to_a_handed_in_exercise(
