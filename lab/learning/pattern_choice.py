@@ -9,6 +9,7 @@ import ipywidgets
 from IPython.display import display
 
 from lab.errors import LabError
+from lab.learning.question import as_status
 
 
 @dataclass(frozen=True)
@@ -120,7 +121,7 @@ class PatternChoice:
         self._show()
 
     def _show(self) -> None:
-        self._note.value = escape(self.text())
+        self._note.value = as_status(escape(self.text()))
         for button in self._buttons.values():
             button.disabled = self.pattern is not None
 

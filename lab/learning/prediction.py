@@ -11,6 +11,7 @@ from IPython.display import display
 from lab.errors import LabError
 from lab.learning.question import (
     Question,
+    as_status,
     read_question,
     store_letter,
     stored_letter,
@@ -104,7 +105,7 @@ class Prediction:
 
         def update_note(_: dict | None = None) -> None:
             chosen = f"You predict {self.letter}. Run the next cell."
-            note.value = escape(chosen if self.letter else f"Choose {self.question.letters()}.")
+            note.value = as_status(escape(chosen if self.letter else f"Choose {self.question.letters()}."))
 
         self._buttons.observe(update_note, "value")
         update_note()

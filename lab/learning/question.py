@@ -16,11 +16,11 @@ from lab.learning.progress_file import Kind, read_entries, shuffle_seed, store_e
 
 LETTERS = "abcdefgh"
 _STYLE = """<style>
-.course-choices > div { display: flex; flex-flow: column; align-items: flex-start; }
-.course-choices button {
-    width: auto; height: auto; line-height: 1.4; padding: 0.3em 0.8em; text-align: left; white-space: normal;
-}
-</style>"""  # by default ipywidgets puts buttons in a row and cuts long texts
+.course-choices { width: auto; height: auto; }
+.course-choices label { height: auto; line-height: 1.4; padding: 0.3em 0; cursor: pointer; }
+.course-choices input { height: 1.4em; accent-color: var(--jp-brand-color1); }
+.course-choices input:focus-visible { outline: 2px solid var(--jp-brand-color1); outline-offset: 2px; }
+</style>"""  # by default ipywidgets cuts long texts
 
 
 @dataclass(frozen=True)
@@ -66,9 +66,9 @@ class Question:
         """Return the question as HTML below a title, without its choices."""
         return HTML(f"<p><b>{escape(title)}.</b> {in_html(self.text)}</p>{_STYLE}")
 
-    def buttons(self) -> ipywidgets.ToggleButtons:
-        """Return a group of buttons, one for each choice, with none selected."""
-        buttons = ipywidgets.ToggleButtons(
+    def buttons(self) -> ipywidgets.RadioButtons:
+        """Return a radio button for each choice, with none selected; a screen reader says which one is."""
+        buttons = ipywidgets.RadioButtons(
             options=[
                 (f"{letter}  {choice.text.replace('`', '')}", letter)
                 for letter, choice in self.by_letter().items()
@@ -89,6 +89,11 @@ class Question:
 def in_html(text: str) -> str:
     """Return a text as HTML; text between backticks becomes code."""
     return re.sub(r"`([^`]+)`", r"<code>\1</code>", escape(text))
+
+
+def as_status(html: str) -> str:
+    """Return HTML that a screen reader reads out when it changes, although the focus is elsewhere."""
+    return f'<span role="status">{html}</span>'
 
 
 def read_question(chapter: str, kind: str, number: int) -> Question:

@@ -7,6 +7,7 @@ from IPython.display import display
 
 from lab.learning.question import (
     Question,
+    as_status,
     in_html,
     read_question,
     store_letter,
@@ -60,7 +61,7 @@ class Quiz:
 
         def mark(change: dict) -> None:
             if change["new"]:
-                verdict.value = in_html(self.mark(change["new"]))
+                verdict.value = as_status(in_html(self.mark(change["new"])))
                 store_letter("questions", self.question, change["new"])
 
         buttons = self.question.buttons()

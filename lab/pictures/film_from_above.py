@@ -198,7 +198,7 @@ class _Floor:
         draw, x, t = ImageDraw.Draw(image), 10, trip.at[frame]
         for phase, colour in trip.colours.items():
             is_now = phase == trip.phase_at(t)
-            draw.text((x, 8), phase, font=font(15, bold=is_now), fill=colour if is_now else "#8a8a8a")
+            draw.text((x, 8), phase, font=font(15, bold=is_now), fill=colour if is_now else GREY)
             x += 22 + round(draw.textlength(phase, font=font(15, bold=True)))
         numbers = (
             f"{trip.distance(frame):.2f} m to the goal, bearing {math.degrees(trip.bearing(frame)):+.0f}°"

@@ -10,6 +10,7 @@ from IPython.display import HTML
 from lab.client.interaction_log import log
 from lab.errors import LabError
 from lab.pictures.figure import BLUE, GREY
+from lab.pictures.picture import hideable
 from lab.pictures.recorded_goal import RecordedGoal, last_goal
 from ros_runtime.drawing.svg import svg
 from ros_runtime.message_constants import GoalStatus
@@ -74,7 +75,8 @@ def draw_goal_states(title: str = "The states of the last goal") -> HTML:
     ]
     parts += [_box(status, times, key) for status in ("SENT", *PLACES)]
     words = ", then ".join(f"{status} at {at:.2f} s" for status, at in times.items())
-    return HTML(svg(parts, width=WIDTH, height=HEIGHT, title=title, words=f"{title}: {words}."))
+    drawing = svg(parts, width=WIDTH, height=HEIGHT, title=title, words=f"{title}: {words}.")
+    return HTML(hideable(drawing))
 
 
 def _reached(goal: RecordedGoal) -> list[tuple[str, float]]:

@@ -10,6 +10,7 @@ import ipywidgets
 import numpy as np
 from IPython.display import HTML
 from PIL import Image
+from traitlets import Unicode
 
 from lab.client import topics
 from lab.errors import NoRobotError
@@ -76,6 +77,12 @@ def _watch(camera: str) -> _LiveView:
     return _running
 
 
+class _Picture(ipywidgets.Image):
+    """An image whose `tooltip` is its text alternative: a browser reads the title where there is no alt."""
+
+    description = Unicode("").tag(sync=True)  # without it, ipywidgets' script fails when it sets a title
+
+
 class _LiveView:
     """A widget, and the thread that draws into it; one thread does all drawing, because OpenGL requires that."""
 
@@ -83,7 +90,7 @@ class _LiveView:
         self.camera = camera
         in_panel = is_notebook_of_a_lab()
         width, height = PANEL_SIZE if in_panel else (WIDTH, HEIGHT)
-        self.widget = ipywidgets.Image(format="jpeg", width=width, height=height)
+        self.widget = _Picture(tooltip="The robot", format="jpeg", width=width, height=height)
         self.panel = Panel(self.widget) if in_panel else None
         self._size = width, height
         self._stop = threading.Event()
@@ -144,6 +151,7 @@ class _LiveView:
                 text = str(error)
                 if self.panel and robot_of_another_notebook():
                     self._stop.set()
+            self.widget.tooltip = f"The robot: {text}"
             if self.panel:
                 self.panel.write(text)
             self._begun.set()

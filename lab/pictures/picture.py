@@ -17,6 +17,7 @@ from sensor_msgs.msg import JointState
 from lab.client import topics
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.view import snapshot
+from ros_runtime.drawing.svg import CLASS, DARK_IN_JUPYTERLAB
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 WIDTH, HEIGHT = 480, 360  # px
@@ -39,14 +40,20 @@ def show_robot(camera: str = "track") -> HTML:
     return figure(png.getvalue(), "png", words, words)
 
 
-def figure(image: bytes, kind: str, words: str, caption: str = "", *, width: int = WIDTH) -> HTML:
+def figure(content: bytes, kind: str, words: str, caption: str = "", *, width: int = WIDTH) -> HTML:
     """Embed an image of a `kind` ("png", "webp", "svg+xml") in the notebook; `words` is its alternative text."""
-    data = base64.b64encode(image).decode()
+    data = base64.b64encode(content).decode()
     below = f"<figcaption>{escape(caption)}</figcaption>" if caption else ""
-    return HTML(
-        f'<figure><img src="data:image/{kind};base64,{data}" width="{width}" alt="{escape(words)}">'
-        f"{below}</figure>"
-    )
+    image = f'src="data:image/{kind};base64,{data}" width="{width}" alt="{escape(words)}"'
+    if kind == "svg+xml":
+        return HTML(f'<figure><img {image} class="{CLASS}">{below}</figure>{DARK_IN_JUPYTERLAB}')
+    shown = f"<figure><img {image}>{below}</figure>"
+    return HTML(hideable(shown) if kind == "webp" else shown)
+
+
+def hideable(film: str) -> str:
+    """Return the HTML of a film that repeats, with a control to hide it."""
+    return f"<details open><summary>Film</summary>{film}</details>"
 
 
 @cache

@@ -18,7 +18,7 @@ TOP = 74
 BOTTOM = 20
 NOTE_GAP = 10  # px between a note's dot and its text
 LETTER_WIDTH = 8  # px, of the widest letter
-COLOURS = {"request": "#1f5fa8", "answer": "#2c7a3f", "message": "#777777"}
+COLOURS = {"request": "#1f5fa8", "answer": "#2c7a3f", "message": "#595959"}
 DASHES = {"request": "", "answer": ' stroke-dasharray="7 4"', "message": ' stroke-dasharray="2 3"'}
 
 
@@ -67,7 +67,7 @@ def sequence_svg(arrows: Sequence[Arrow], *, title: str, participants: Sequence[
 def _lifeline(name: str, x: int, height: int) -> list[str]:
     half = LANE_WIDTH // 2 - 20
     return [
-        f'<line x1="{x}" y1="{TOP}" x2="{x}" y2="{height - BOTTOM}" stroke="#bbbbbb"/>',
+        f'<line x1="{x}" y1="{TOP}" x2="{x}" y2="{height - BOTTOM}" stroke="#888888"/>',
         f'<rect x="{x - half}" y="{TOP - 34}" width="{2 * half}" height="28" rx="5" fill="#eef3f9" stroke="#8aa4c0"/>',
         f'<text x="{x}" y="{TOP - 15}" text-anchor="middle">{escape(name)}</text>',
     ]
@@ -75,7 +75,7 @@ def _lifeline(name: str, x: int, height: int) -> list[str]:
 
 def _arrow(arrow: Arrow, centre: dict[str, int], y: int) -> list[str]:
     start, end, colour = centre[arrow.sender], centre[arrow.receiver], COLOURS[arrow.kind]
-    time = f'<text x="12" y="{y + 4}" fill="#777777" font-size="12">{arrow.time:.2f} s</text>'
+    time = f'<text x="12" y="{y + 4}" fill="#595959" font-size="12">{arrow.time:.2f} s</text>'
     if start == end:
         return [
             time,

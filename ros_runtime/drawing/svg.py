@@ -1,4 +1,4 @@
-"""The frame of every drawing: a title, a text alternative, and a white background, which also suits a dark page."""
+"""The frame of every drawing: a title, a text alternative, and a white sheet, which is dark in a dark notebook."""
 
 from __future__ import annotations
 
@@ -6,13 +6,19 @@ from collections.abc import Iterable
 
 from ros_runtime.drawing.xml_text import escape
 
+CLASS = "course-drawing"
+# The style of a drawing of this class in JupyterLab, whose theme is not the browser's.
+_DARK = f'body[data-jp-theme-light="false"] .{CLASS} {{ filter: invert(0.91) hue-rotate(180deg); }}'
+DARK_IN_JUPYTERLAB = f"<style>{_DARK}</style>"
+
 
 def svg(parts: Iterable[str], *, width: int, height: int, title: str, words: str) -> str:
     """Return a drawing of `width` × `height` px with these SVG elements; `words` is the text alternative."""
     return "\n".join(
         [
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" role="img" '
-            'font-family="sans-serif" font-size="13">',
+            f'class="{CLASS}" font-family="sans-serif" font-size="13">',
+            DARK_IN_JUPYTERLAB,
             f"<title>{escape(title)}</title>",
             f"<desc>{escape(words)}</desc>",
             f'<rect width="{width}" height="{height}" fill="white"/>',

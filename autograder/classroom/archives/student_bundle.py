@@ -27,6 +27,7 @@ SHOWN = (
     "chapters/README.md",
     "chapters/images",
     "course",
+    "docs/accessibility.md",
     "docs/any_machine.md",
     "docs/cheat_sheet.md",
     "docs/ci",

@@ -22,7 +22,7 @@ PARTS = {
     "Chapters": ("chapters/*.ipynb",),
     "Exercises": ("exercises/*/*.ipynb",),
     "Look it up": ("docs/glossary.md", "docs/cheat_sheet.md", "docs/ros2_commands.md", "docs/robot.md"),
-    "Set it up": ("docs/for_students.md", "docs/any_machine.md"),
+    "Set it up": ("docs/for_students.md", "docs/any_machine.md", "docs/accessibility.md"),
     "For instructors": (
         "docs/for_instructors.md",
         "docs/jupyterhub.md",

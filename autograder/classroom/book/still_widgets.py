@@ -58,8 +58,9 @@ def _picture(model: Mapping[str, Any]) -> str:
     )
     base64.b64decode(data, validate=True)
     kind = model["state"].get("format", "png")
+    words = escape(model["state"].get("tooltip") or VIEW_CAPTION)
     return (
-        f'<figure><img src="data:image/{kind};base64,{data}" alt="{VIEW_CAPTION}">'
+        f'<figure><img src="data:image/{kind};base64,{data}" alt="{words}">'
         f"<figcaption>{VIEW_CAPTION}; in the lab it moves.</figcaption></figure>"
     )
 

@@ -11,6 +11,7 @@ import pytest
 from nbformat.v4 import new_output
 from playwright.sync_api import Page, sync_playwright
 
+from accessibility import require_accessible
 from autograder.classroom.book.site import make_site
 from chromium import CHROMIUM, OFFLINE, needs_chromium
 from ros_runtime.project import PROJECT
@@ -82,3 +83,12 @@ def test_the_page_of_each_week_prints_on_one_sheet(site: Path, page: Page) -> No
         assert page.locator("article img").count() == 1
         assert page.locator("article li").count() >= 3, week
         assert len(re.findall(rb"/Type\s*/Page\b", page.pdf(format="A4"))) == 1, week
+
+
+def test_its_pages_meet_wcag_2_1_aa(site: Path, page: Page) -> None:
+    for name in (
+        *("index", "search", "chapters/01_robot_and_graph", "chapters/week_02_services"),
+        *("exercises/patterns/patterns", "docs/grading", "docs/accessibility"),
+    ):
+        page.goto((site / f"{name}.html").as_uri())
+        require_accessible(page)

@@ -1,4 +1,7 @@
-"""A student's first minutes: unpack the archive, `course lab`, open the first chapter, walk the robot, predict."""
+"""A student's way: unpack the archive, `course lab`, a chapter, a robot that walks, a prediction, a handed-in exercise.
+
+What the course shows in JupyterLab is judged by axe-core on the way; JupyterLab's own frame is not.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ import subprocess
 import sys
 import time
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import nbformat
@@ -20,12 +23,31 @@ from nbformat.v4 import new_code_cell, new_notebook
 from PIL import Image
 from playwright.sync_api import Locator, Page, sync_playwright
 
+from accessibility import require_accessible, violations
 from autograder.classroom.archives.student_bundle import TOP, write_bundle
 from chromium import CHROMIUM, OFFLINE, needs_chromium
-from ros_runtime.project import TOOLKIT
+from ros_runtime.project import PROJECT, TOOLKIT
 
 TIMEOUT = 90.0  # s, for each thing a busy machine has to do
 PICTURE = ".jp-OutputArea .widget-image"
+OUTPUTS = ".jp-OutputArea-output"
+KERNEL = {"kernelspec": {"name": "python3", "display_name": "Python 3 (ipykernel)"}}
+# Kinds of outputs that the other tests do not show.
+OTHER_OUTPUTS = (
+    "import lab, numpy\nx = numpy.linspace(0.0, 1.0, 20)",
+    'lab.quiz("services", 1)',
+    "lab.choose_pattern()",
+    'lab.slide("gain", (0.5, 1.0), lambda k: lab.plot_curves({"a": (x, k * x)}, "t, s", "m"), start=1.0)',
+    """
+from ros_runtime.drawing.sequence_diagram import Arrow, sequence_svg
+from IPython.display import HTML
+HTML(sequence_svg([Arrow(0.0, "notebook", "server", "request")], title="A call"))""",
+    "%%gap merged.py\nnothing",
+)
+UNNAMED_SLIDER = {"aria-input-field-name": "ipywidgets 8 names the label beside a slider, not its handle"}
+PATTERNS = {"t": "topic", "s": "service", "a": "action"}
+# The right answers to the exercise `patterns`: for each situation the pattern and the reason.
+ANSWERS = ["ta", "sb", "ac", "ta", "sb", "aa", "tb", "sc", "ab", "tc", "sa", "ac"]
 
 pytestmark = needs_chromium
 
@@ -52,7 +74,12 @@ def address(folder: Path) -> Iterator[str]:
         "--port",
         "0",
     ]
-    environment = {**os.environ, "HOME": str(folder), "PYTHONPATH": str(folder / TOP / TOOLKIT)}
+    environment = {
+        **os.environ,
+        "HOME": str(folder),
+        "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}",  # for `course` in a cell
+        "PYTHONPATH": str(folder / TOP / TOOLKIT),
+    }
     with subprocess.Popen(
         command,
         cwd=folder / TOP,
@@ -98,6 +125,8 @@ def test_from_the_start_page_to_a_robot_that_walks(page: Page) -> None:
     deadline = time.monotonic() + TIMEOUT
     while np.mean(abs(seen(page) - standing) > 20) < 0.05:
         assert time.monotonic() < deadline, f"the picture has not moved within {TIMEOUT:g} s"
+    assert re.match(r"The robot: [A-Z]+ at ", page.locator(PICTURE).get_attribute("title") or "")
+    require_accessible(page, OUTPUTS)
 
 
 def test_the_robot_is_shown_beside_the_notebook_that_has_it(page: Page, folder: Path, address: str) -> None:
@@ -139,6 +168,7 @@ def test_the_first_page_shows_what_is_done_and_a_first_step(page: Page) -> None:
     page.keyboard.press("Shift+Enter")
     page.get_by_text("Nothing done yet. Your first step").wait_for()
     assert page.get_by_label("Predictions: 0 of").count() >= 5
+    require_accessible(page, OUTPUTS)
     page.get_by_role("row").get_by_role("link", name="battery_service").click()
     page.get_by_role("heading", name="Battery service").wait_for()
 
@@ -156,12 +186,14 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
     page.keyboard.press("Shift+Enter")
     page.get_by_text("Choose a, b or c.").wait_for()
 
-    page.locator(".course-choices button").first.focus()
+    page.locator(".course-choices input").first.focus()
     page.keyboard.press("Tab")
     page.keyboard.press("Space")
     page.get_by_text("You predict b. Run the next cell.").wait_for()
-    page.locator(".course-choices button").nth(2).click()
+    assert page.get_by_role("radio", name=re.compile("^b ")).is_checked()
+    page.get_by_role("radio", name=re.compile("^c ")).click()
     page.get_by_text("You predict c. Run the next cell.").wait_for()
+    require_accessible(page, OUTPUTS)
 
     notebook.get_by_text("prediction_1.reply()").click()
     page.keyboard.press("Shift+Enter")
@@ -186,13 +218,92 @@ def test_a_self_check_saves_the_program_that_it_checks(page: Page, folder: Path,
     assert "not saved yet" in notebook.read_text()
     failed = page.locator(".course-verdicts details[open]").first
     assert "failed: Each of the twelve situations" in failed.inner_text()
+    in_both_themes(page)
     failed.get_by_role("link", name="Topic, service or action?").click()
     page.get_by_role("heading", name="Topic, service or action?").wait_for()
 
 
+def test_questions_plots_and_drawings_suit_both_themes(page: Page, folder: Path, address: str) -> None:
+    write(folder / TOP / "chapters" / "outputs.ipynb", *map(new_code_cell, OTHER_OUTPUTS))
+    page.goto(address.replace("start_here.ipynb", "chapters/outputs.ipynb") + "&reset")
+    page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
+    page.get_by_role("menuitem", name="Run", exact=True).click()
+    page.get_by_text("Run All Cells", exact=True).click()
+    page.get_by_text("GapError: merged.py").first.wait_for()
+    in_both_themes(page, left_out=UNNAMED_SLIDER)
+    for drawing in page.locator(".course-drawing").all():
+        assert "invert" in drawing.evaluate("drawing => getComputedStyle(drawing).filter")
+    frame = {found["id"] for found in violations(page).response["violations"]}
+    stated = (PROJECT / "docs/accessibility.md").read_text(encoding="utf-8")
+    assert {rule for rule in frame if f"`{rule}`" not in stated} == set()  # what JupyterLab itself lacks
+
+
+def test_the_keyboard_alone_leads_from_the_start_page_to_a_handed_in_exercise(
+    page: Page, folder: Path
+) -> None:
+    press = page.keyboard.press
+    page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
+    run_cell(page, "lab.show_progress()")
+    page.get_by_role("row").get_by_role("link", name="patterns").wait_for()
+    press("ArrowUp")
+    for _ in range(20):
+        press("Tab")
+        if page.locator(":focus").inner_text() == "patterns":
+            break
+    press("Enter")
+    page.get_by_role("heading", name="Topic, service or action?").wait_for()
+
+    go_to_cell(page, "%%writefile patterns.py")
+    press("Enter")
+    for _ in range(10):
+        if "YOUR CODE HERE" in page.locator(".cm-activeLine:visible").inner_text():
+            break
+        press("ArrowDown")
+    press("End")
+    for number, (pattern, reason) in enumerate(ANSWERS, start=1):
+        press("Enter")
+        page.keyboard.type(f'{number}: ("{PATTERNS[pattern]}", "{reason}"),')
+    press("Shift+Enter")
+    page.get_by_text("Writing patterns.py").wait_for()
+    run_cell(page, 'checked = self_check("patterns")')
+    page.get_by_text("7 of 7 points").wait_for()
+
+    press("b")  # a cell below
+    press("Enter")
+    page.keyboard.type("!course submit patterns")
+    press("Shift+Enter")
+    page.get_by_text("Next: hand in what is in hand_in/").wait_for()
+    handed_in = next((folder / TOP / "exercises/patterns/hand_in").iterdir())
+    assert '12: ("action", "c")' in handed_in.read_text().replace('\\"', '"')
+
+
+def go_to_cell(page: Page, words: str) -> None:
+    """Go down from cell to cell until the one with these words is active."""
+    for _ in range(40):
+        if page.locator(".jp-Cell.jp-mod-active:visible", has_text=words).count():
+            return
+        page.keyboard.press("ArrowDown")
+    raise AssertionError(f"no cell below contains {words!r}")
+
+
+def run_cell(page: Page, words: str) -> None:
+    """Go down to the cell with these words, and run it."""
+    go_to_cell(page, words)
+    page.keyboard.press("Shift+Enter")
+
+
+def in_both_themes(page: Page, **options: Mapping[str, str]) -> None:
+    """Require that the outputs are accessible in JupyterLab's light theme and in its dark one, which stays."""
+    for theme, is_light in (("JupyterLab Light", "true"), ("JupyterLab Dark", "false")):
+        page.get_by_role("menuitem", name="Settings", exact=True).click()
+        page.locator(".lm-Menu-item", has_text="Theme").first.hover()
+        page.locator(".lm-Menu-item", has_text=theme).first.click()
+        page.locator(f'body[data-jp-theme-light="{is_light}"]').wait_for(state="attached")
+        require_accessible(page, OUTPUTS, **options)
+
+
 def write(notebook: Path, *cells: nbformat.NotebookNode) -> None:
-    kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3 (ipykernel)"}}
-    nbformat.write(new_notebook(cells=cells, metadata=kernel), notebook)
+    nbformat.write(new_notebook(cells=cells, metadata=KERNEL), notebook)
 
 
 def run_first_cell(page: Page, address: str, name: str) -> None:

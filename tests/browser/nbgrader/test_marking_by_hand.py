@@ -12,6 +12,7 @@ import psutil
 import pytest
 from playwright.sync_api import Page, sync_playwright
 
+from accessibility import require_accessible
 from autograder.classroom.nbgrader_bridge.gradebook import CourseGradebook, Entry
 from autograder.engine.essay import load_essay, unmarked_grade
 from chromium import CHROMIUM, OFFLINE, needs_chromium
@@ -94,6 +95,7 @@ def test_an_essay_is_opened_marked_and_given_back(page: Page, address: str, cour
     assert feedback
     page.goto(feedback.as_uri())
     page.get_by_text("(Score: 2.5 / 20.0)").wait_for()
+    require_accessible(page)
     titles = [criterion.title for criterion in ESSAY.criteria]
     assert page.locator("#toc a").all_inner_texts() == [*titles, f"Comment on: {titles[-1]}"]
     page.get_by_text("What if the screen hangs?").wait_for()

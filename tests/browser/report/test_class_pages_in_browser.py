@@ -8,12 +8,15 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, sync_playwright
 
-from autograder.classroom.pages.pages import write_class_page, write_submission_pages
+from accessibility import require_accessible
+from autograder.classroom.pages.pages import write_class_page, write_student_page, write_submission_pages
 from autograder.classroom.pages.plots import bars_svg
 from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.report.rendering import Section, write_page
 from chromium import CHROMIUM, OFFLINE, needs_chromium
 
 HOSTILE = "<img src=x onerror=document.title='run'>"
+UNFOLD = "all => all.forEach(summary => { summary.parentElement.open = true; })"
 PHONE = {"width": 390, "height": 800}
 
 pytestmark = needs_chromium
@@ -45,7 +48,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     ]
     for each in grades:
         write_submission_pages(folder, each, {"walks": [drawing]})
-    write_class_page(folder, grades)
+    write_student_page(folder, "anna", [each for each in grades if each.student == "anna"])
+    write_class_page(folder, grades, ["bo/: no file"], {"when": "today"})
+    sections = [Section(each.student, each, {"walks": [drawing]}) for each in grades[:2]]
+    write_page(folder / "report.html", title="Report", introduction="Two submissions", sections=sections)
     return folder
 
 
@@ -90,7 +96,12 @@ def test_dark_mode_has_light_text_and_a_phone_needs_no_horizontal_scrolling(page
         )
         assert ink > 200 > 50 > paper
         page.set_viewport_size(PHONE)
-        page.locator("summary").evaluate_all(
-            "all => all.forEach(summary => { summary.parentElement.open = true; })"
-        )
+        page.locator("summary").evaluate_all(UNFOLD)
         assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"], path
+
+
+def test_every_page_meets_wcag_2_1_aa(page: Page, folder: Path) -> None:
+    for path in sorted(folder.rglob("*.html")):
+        page.goto(path.as_uri())
+        page.locator("summary").evaluate_all(UNFOLD)
+        require_accessible(page)

@@ -50,12 +50,12 @@ def test_the_buttons_do_the_same_and_are_disabled_after_the_decision() -> None:
     note, row = choice._panel().children
     yes, no, restart = row.children
     no.click()
-    assert note.value.startswith("Question 2.")
+    assert "Question 2." in note.value
     yes.click()
-    assert note.value.startswith("Action: ")
+    assert "Action: " in note.value
     assert (yes.disabled, no.disabled) == (True, True)
     restart.click()
-    assert note.value.startswith("Question 1.")
+    assert "Question 1." in note.value
     assert (yes.disabled, no.disabled) == (False, False)
 
 

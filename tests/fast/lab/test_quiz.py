@@ -11,7 +11,7 @@ import pytest
 
 import lab
 from chapters.support import questions
-from lab.learning.question import Choice, Question
+from lab.learning.question import Choice, Question, as_status
 from lab.learning.quiz import Quiz
 
 CHAPTERS = [module.name for module in pkgutil.iter_modules(questions.__path__)]
@@ -44,13 +44,13 @@ def test_an_unknown_letter_names_the_choices() -> None:
 def test_clicking_an_answer_shows_the_verdict() -> None:
     buttons, verdict = Quiz("Question 1", EXAMPLE)._buttons().children
     buttons.value = "b"
-    assert verdict.value == "b: Not this one. One too many."
+    assert verdict.value == as_status("b: Not this one. One too many.")
 
 
 def test_an_answer_is_kept_whether_written_or_clicked() -> None:
     Quiz("Question 1", EXAMPLE).answer("b")
     buttons, verdict = Quiz("Question 1", EXAMPLE)._buttons().children
-    assert (buttons.value, verdict.value) == ("b", "b: Not this one. One too many.")
+    assert (buttons.value, verdict.value) == ("b", as_status("b: Not this one. One too many."))
     buttons.value = "a"
     assert Quiz("Question 1", EXAMPLE)._buttons().children[0].value == "a"
 

@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 from execution import CHAPTERS, Executed, processes_in
 
+from autograder.classroom.book.still_widgets import models_of
+
 NAMES = sorted(path.stem for path in CHAPTERS.glob("*.ipynb"))
 SHORT = {"12_design"}  # no robot, two predictions, two questions
 
@@ -32,6 +34,9 @@ def test_it_runs_and_every_picture_has_a_text_alternative(
     assert drawings or pictures
     assert all("<title>" in html and "<desc>" in html for html in drawings)
     assert all(re.search(r'alt="[^"]{20,}"', html) for html in pictures)
+    widgets = models_of(chapter.notebook).values()
+    live = [model["state"] for model in widgets if model.get("model_name") == "ImageModel"]
+    assert all(len(state["tooltip"]) > 20 for state in live)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from docutils import nodes
 from docutils.utils.math.latex2mathml import tex2mathml
 from sphinx.application import Sphinx
@@ -30,8 +32,21 @@ suppress_warnings = ["mystnb.unknown_mime_type", "misc.highlighting_failure"]
 
 
 def setup(sphinx: Sphinx) -> None:
-    """Register "mathml": browsers render these formulas without a script or a font."""
+    """Register "mathml", formulas that browsers render without a script or a font, and the translator below."""
     sphinx.add_html_math_renderer("mathml", (_inline, None), (_block, None))
+    sphinx.set_translator("html", BookTranslator)
+
+
+class BookTranslator(HTML5Translator):
+    """Gives a level to the captions of the tables of contents, which are headings; Sphinx gives them none."""
+
+    def starttag(
+        self, node: nodes.Element, tagname: str, suffix: str = "\n", empty: bool = False, **attributes: Any
+    ) -> str:
+        """Return an opening tag."""
+        if attributes.get("ROLE") == "heading":
+            attributes["aria-level"] = "2"
+        return super().starttag(node, tagname, suffix, empty, **attributes)
 
 
 def _inline(translator: HTML5Translator, node: nodes.math) -> None:
