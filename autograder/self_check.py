@@ -208,10 +208,11 @@ def _write_page(
 ) -> None:
     from autograder.work_page import write_work_page
 
-    console.print(f"writing {page}, with a film of the robot …", style="dim", markup=False)
+    console.print(f"writing {page}; a film of the robot takes some seconds …", style="dim", markup=False)
     write_work_page(page, submission, result, recorder)
-    size = page.stat().st_size / 1e6
-    console.print(f"{page}: {size:.1f} MB, to open in any browser or to send", markup=False)
+    console.print(
+        f"{page}: {page.stat().st_size / 1e3:,.0f} kB, to open in any browser or to send", markup=False
+    )
 
 
 def _keep_recordings(console: Console, folder: Path, recordings: Recordings) -> None:
