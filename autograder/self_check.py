@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.text import Text
@@ -93,23 +93,9 @@ def _save_notebook() -> None:
             shown.update({"text/plain": ""}, raw=True)
 
 
-def check_and_keep(
-    console: Console,
-    path: Path,
-    exercise: str,
-    *,
-    jobs: int = 2,
-    arenas: SubmissionArenas | None = None,
-    recordings: Path | None = None,
-    page: Path | None = None,
-) -> Grade:
-    """Like `check_with_progress`; also store the number of passed checks for the progress page.
-
-    Raises `UnusableSubmission`, `UnknownExercise` and `NoPage`.
-    """
-    result = check_with_progress(
-        console, path, exercise, jobs=jobs, arenas=arenas, recordings=recordings, page=page
-    )
+def check_and_keep(console: Console, path: Path, exercise: str, **options: Any) -> Grade:
+    """Like `check_with_progress`, with its options; also store the number of passed checks for the progress page."""
+    result = check_with_progress(console, path, exercise, **options)
     if result.status == "graded":
         passed = sum(check.status == "passed" for check in result.checks)
         store_check(exercise, passed, len(result.checks), result.program)

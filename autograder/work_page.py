@@ -8,7 +8,7 @@ import platform
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import distributions
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -63,10 +63,11 @@ class Shown:
 
 def write_work_page(page: Path, submission: Submission, grade: Grade, recorder: Recorder) -> None:
     """Write the page of a graded program, whose runs the recorder has received."""
-    places = [exercises_folder(), COURSE / "exercises"]
-    notebooks = [folder / grade.exercise / f"{grade.exercise}.ipynb" for folder in places]
-    title = next(filter(None, (text_of_cell(notebook, "title") for notebook in notebooks)), grade.exercise)
-    task = next(filter(None, (text_of_cell(notebook, "task") for notebook in notebooks)), "")
+    name = f"{grade.exercise}/{grade.exercise}.ipynb"
+    notebook = exercises_folder() / name
+    if not notebook.exists():  # in the students' archive, which has only the checks there
+        notebook = COURSE / "exercises" / name
+    title = text_of_cell(notebook, "title") or grade.exercise
     # Links and pictures stay text, because the page has no other files.
     markdown = (
         MarkdownIt("commonmark", {"html": False}).enable("table").disable(["link", "image", "autolink"])
@@ -75,7 +76,7 @@ def write_work_page(page: Path, submission: Submission, grade: Grade, recorder: 
         page,
         "work.html",
         title=title.splitlines()[0].lstrip("# "),
-        task=Markup(markdown.render(task)),
+        task=Markup(markdown.render(text_of_cell(notebook, "task"))),
         grade=grade,
         shown=_shown(grade, recorder),
         programs={name: _highlighted(name, text) for name, text in submission.sources.items()},
@@ -141,17 +142,13 @@ def _highlighted(name: str, text: str) -> Markup:
 
 def _facts(grade: Grade) -> dict[str, str]:
     """Return how the checks were run, by labels."""
-    versions = [f"Python {platform.python_version()}"]
-    for package, called in PACKAGES.items():
-        try:
-            versions.append(f"{called} {version(package)}")
-        except PackageNotFoundError:  # such as rclpy, which may come from apt
-            continue
+    installed = {one.metadata["Name"]: one.version for one in distributions()}
+    versions = [f"{called} {installed[name]}" for name, called in PACKAGES.items() if name in installed]
     return {
         "Exercise": grade.exercise,
         "Checked": f"{datetime.now():%Y-%m-%d %H:%M}",
         "Program": f"fingerprint {grade.program}, as ./course submit prints it",
         "Seed of the inputs": str(grade.seed),
         "Isolation": grade.isolation,
-        "Versions": ", ".join(versions),
+        "Versions": ", ".join([f"Python {platform.python_version()}", *versions]),
     }
