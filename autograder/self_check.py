@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.text import Text
 
 from autograder.authoring.checks import Check
+from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import Exercise, file_names, load_exercise
 from autograder.engine.grading import GradingOptions, Watcher, grade
-from autograder.engine.submission import place_of_work, read_submission
+from autograder.engine.submission import Submission, place_of_work, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.hand_in_notice import hidden_checks_notice, saved_work_notice
@@ -20,6 +23,7 @@ from autograder.isolation.availability import available_isolation
 from autograder.recording.kept import Recordings, keep
 from autograder.report.running import RunningLine
 from autograder.report.table import grade_table, print_beginning, print_retry, print_verdict, summary
+from ros_runtime.course_error import CourseError
 from ros_runtime.self_checks import store_check
 from ros_runtime.workarounds.jupyterlab_page import save_notebook
 
@@ -27,7 +31,13 @@ if TYPE_CHECKING:
     from autograder.recording.recorder import Recorder
     from autograder.report.notebook_table import NotebookTable
 
+OnEvidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
+
 NOTEBOOK_WIDTH = 104  # characters; fits into JupyterLab with its file browser on a screen of 1280 pixels
+
+
+class NoPage(CourseError):
+    """The page to show cannot be written; the message says why."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -51,16 +61,18 @@ class SelfCheck:
         print(f"Hidden check {number} is run when your work is graded.")
 
 
-def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
+def self_check(exercise: str, file: str | Path | None = None, *, page: str | Path | None = None) -> SelfCheck:
     """Check `file` (default: the file that the notebook wrote here) with the visible checks and print the verdicts.
 
-    Raises `UnusableSubmission` when the file cannot be read.
+    With `page`, also write a page to show, such as walk_to.html: task, program, points, and a film of the robot.
+
+    Raises `UnusableSubmission` when the file cannot be read, and `NoPage` when the page cannot be written.
     """
     console = _console()
     if Console().is_jupyter:
         save_notebook()
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
-    result = check_and_keep(console, path, exercise)
+    result = check_and_keep(console, path, exercise, page=Path(page) if page else None)
     for line in (
         Text(hidden_checks_notice(exercise)),
         Text() if file else saved_work_notice(exercise, result.program),
@@ -70,20 +82,9 @@ def self_check(exercise: str, file: str | Path | None = None) -> SelfCheck:
     return SelfCheck(result)
 
 
-def check_and_keep(
-    console: Console,
-    path: Path,
-    exercise: str,
-    *,
-    jobs: int = 2,
-    arenas: SubmissionArenas | None = None,
-    recordings: Path | None = None,
-) -> Grade:
-    """Like `check_with_progress`; also store the number of passed checks for the progress page.
-
-    Raises `UnusableSubmission` and `UnknownExercise`.
-    """
-    result = check_with_progress(console, path, exercise, jobs=jobs, arenas=arenas, recordings=recordings)
+def check_and_keep(console: Console, path: Path, exercise: str, **options: Any) -> Grade:
+    """Like `check_with_progress`, with its options; also store the number of passed checks for the progress page."""
+    result = check_with_progress(console, path, exercise, **options)
     if result.status == "graded":
         passed = sum(check.status == "passed" for check in result.checks)
         store_check(exercise, passed, len(result.checks), result.program)
@@ -98,17 +99,20 @@ def check_with_progress(
     jobs: int = 2,
     arenas: SubmissionArenas | None = None,
     recordings: Path | None = None,
+    page: Path | None = None,
 ) -> Grade:
     """Check a student's file with the visible checks; print each verdict as soon as it is known, then the table.
 
     `arenas` are those of this submission, if one was opened ahead; `recordings` is a folder for recordings of the
-    scenarios, if they are wanted.
+    scenarios, if they are wanted, and `page` a file for a page to show.
 
-    Raises `UnusableSubmission` and `UnknownExercise`.
+    Raises `UnusableSubmission`, `UnknownExercise` and `NoPage`.
     """
+    if page:
+        _require_place(page)
     loaded = load_exercise(exercise, hidden=False)
     submission = read_submission(path, exercise)
-    recorder = _recorder(loaded) if recordings else None
+    recorder = _recorder(loaded) if recordings or page else None
     print_beginning(console, path, loaded)
     if not (isolation := available_isolation()).trusted:
         said = (
@@ -131,13 +135,23 @@ def check_with_progress(
         if table:
             watcher = Watcher(table.add, on_evidence=table.draw, on_running=line.show)
         if recorder:
-            watcher = replace(watcher, on_evidence=recorder.add)
+            watcher = replace(watcher, on_evidence=_both(watcher.on_evidence, recorder.add))
         result = grade(submission, loaded, options, watcher, arenas=arenas)
     console.print()
     console.print(Text(summary(result), style="bold") if table else grade_table(result))
     if recordings and recorder:
         _keep_recordings(console, recordings, recorder.files(result))
+    if page and recorder and result.status == "graded":
+        _write_page(console, page, submission, result, recorder)
     return result
+
+
+def _both(first: OnEvidence, second: OnEvidence) -> OnEvidence:
+    def on_evidence(verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> None:
+        first(verdict, transcripts)
+        second(verdict, transcripts)
+
+    return on_evidence
 
 
 def _notebook_table(exercise: Exercise) -> NotebookTable:
@@ -152,6 +166,28 @@ def _recorder(exercise: Exercise) -> Recorder:
     from autograder.recording.recorder import Recorder
 
     return Recorder(exercise, for_students=True)
+
+
+def _require_place(page: Path) -> None:
+    """Require, before the checks, which may take minutes, that a page can be written there."""
+    if page.suffix.lower() != ".html":
+        raise NoPage(f"{page} has the suffix {page.suffix or '“”'}; expected .html")
+    if not page.parent.is_dir():
+        raise NoPage(f"{page} cannot be written: there is no folder {page.parent}")
+    if page.is_dir() or not os.access(page if page.exists() else page.parent, os.W_OK):
+        raise NoPage(f"{page} cannot be written: it is a folder, or you have no permission")
+
+
+def _write_page(
+    console: Console, page: Path, submission: Submission, result: Grade, recorder: Recorder
+) -> None:
+    from autograder.work_page import write_work_page
+
+    console.print(f"writing {page}; a film of the robot takes some seconds …", style="dim", markup=False)
+    write_work_page(page, submission, result, recorder)
+    console.print(
+        f"{page}: {page.stat().st_size / 1e3:,.0f} kB, to open in any browser or to send", markup=False
+    )
 
 
 def _keep_recordings(console: Console, folder: Path, recordings: Recordings) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
 
-from autograder.engine.notebook import cells_in, source_of
+from autograder.engine.notebook import text_of_cell
 
 _CLAUSE = re.compile(r"^(\d+)\. +(.+(?:\n(?!\d+\. |\n).+)*)", re.MULTILINE)
 _MARKUP = re.compile(r"[`*]")
@@ -16,14 +16,9 @@ _MARKUP = re.compile(r"[`*]")
 @cache
 def clauses_in(notebook: Path) -> Mapping[int, str]:
     """Return the clauses by number, each as one line of plain text; empty without a readable notebook."""
-    try:
-        cells = cells_in(notebook.read_text(encoding="utf-8-sig"))
-    except (OSError, ValueError):
-        return {}
-    task = next((cell for cell in cells if cell.get("id") == "task"), {})
     return {
         int(number): " ".join(_MARKUP.sub("", text).split())
-        for number, text in _CLAUSE.findall(source_of(task))
+        for number, text in _CLAUSE.findall(text_of_cell(notebook, "task"))
     }
 
 

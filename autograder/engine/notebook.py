@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import reduce
 from itertools import islice
+from pathlib import Path
 from posixpath import normpath
 from typing import Any
 
@@ -58,6 +59,15 @@ def source_of(cell: Mapping[str, Any]) -> str:
     """Return the text of a cell."""
     source = cell.get("source", cell.get("input"))  # of nbformat 3 and before
     return "".join(map(str, source)) if isinstance(source, list) else str(source or "")
+
+
+def text_of_cell(notebook: Path, cell_id: str) -> str:
+    """Return the text of a notebook's cell; "" if there is no readable notebook with such a cell."""
+    try:
+        cells = cells_in(notebook.read_text(encoding="utf-8-sig"))
+    except (OSError, ValueError):
+        return ""
+    return next((source_of(cell) for cell in cells if cell.get("id") == cell_id), "")
 
 
 def code_cells(text: str) -> list[str]:

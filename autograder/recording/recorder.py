@@ -52,6 +52,11 @@ class Recorder:
             if is_lost:
                 self._lost.add(scenario)
 
+    @property
+    def runs(self) -> Sequence[Transcript]:
+        """The runs to record, one of each scenario that was judged."""
+        return list(self._runs.values())
+
     def files(self, grade: Grade) -> Recordings:
         """Make the recordings up to the size limit, first those in which a point was lost.
 

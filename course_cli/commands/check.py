@@ -13,7 +13,7 @@ from rich.console import Console
 
 from autograder.engine.essay import load_essay
 from autograder.engine.exercise import essay_names, exercise_names, scenario_file
-from autograder.engine.submission import read_submission
+from autograder.engine.submission import UnusableSubmission, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.hand_in_notice import hidden_checks_notice
 from course_cli.ending import COMMAND_FAILED, NOT_GRADED
@@ -36,6 +36,12 @@ def check(
         bool,
         typer.Option("--record", help="keep an MCAP file of each scenario in recordings/EXERCISE/"),
     ] = False,
+    page: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE.html", help="write a page to show: task, program, points, a film of the robot"
+        ),
+    ] = None,
     jobs: JobsOption = 2,
     course: CourseOption = None,
 ) -> None:
@@ -46,6 +52,8 @@ def check(
     for line in left_aside:
         console.print(f"left aside: {line}", style="yellow", markup=False)
     if exercise in essay_names():
+        if page:
+            raise UnusableSubmission(f"{exercise} has no page: a person marks it, so no run can be shown")
         _show_rubric(console, exercise, path)
         return
     with SubmissionArenas(scenario_file(exercise)) as arenas:
@@ -55,7 +63,9 @@ def check(
         from autograder.self_check import check_and_keep
 
         folder = Path("recordings") / exercise if record else None
-        result = check_and_keep(console, path, exercise, jobs=jobs, arenas=arenas, recordings=folder)
+        result = check_and_keep(
+            console, path, exercise, jobs=jobs, arenas=arenas, recordings=folder, page=page
+        )
     if later := hidden_checks_notice(exercise):
         console.print(later, markup=False)
     if json_file:

@@ -30,6 +30,7 @@ PARTS = {
         "docs/clusters.md",
         "docs/recordings.md",
         "docs/exports.md",
+        "docs/from_github_classroom.md",
         "docs/write_an_exercise.md",
         "docs/coverage.md",
         "docs/architecture.md",

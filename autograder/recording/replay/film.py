@@ -29,8 +29,8 @@ MARGIN = 8  # px
 BACKGROUND = "#16181d"
 
 
-def film(recording: Recording, span: Span, file: Path, *, camera: str = "track") -> int:
-    """Write a film of the robot in this span; return the number of frames.
+def film(recording: Recording, span: Span, file: Path, *, camera: str = "track", speed: float = 1.0) -> int:
+    """Write a film of the robot in this span, played `speed` times as fast; return the number of frames.
 
     Raises:
         ValueError: the file's suffix is not in FORMATS, the span is too long, or there is no such camera.
@@ -38,12 +38,13 @@ def film(recording: Recording, span: Span, file: Path, *, camera: str = "track")
         NoOpenGLError: this machine cannot draw pictures.
     """
     require_known_format(file)
-    if span.end - span.start > MAX_DURATION:
+    duration = (span.end - span.start) / speed
+    if duration > MAX_DURATION:
         raise ValueError(
-            f"the film would last {span.end - span.start:.0f} s, but the limit is {MAX_DURATION:g} s: choose a part "
+            f"the film would last {duration:.0f} s, but the limit is {MAX_DURATION:g} s: choose a part "
             "with --seconds and --around"
         )
-    frames = _frames(recording, span, camera)
+    frames = _frames(recording, span, camera, FRAME_RATE / speed)
     save_frames(file, frames, FORMATS[file.suffix.lower()], FRAME_RATE, last=LAST_FRAME_DURATION)
     return len(frames)
 
@@ -57,13 +58,14 @@ def require_known_format(file: Path) -> None:
         )
 
 
-def _frames(recording: Recording, span: Span, camera: str) -> list[Image.Image]:
+def _frames(recording: Recording, span: Span, camera: str, rate: float) -> list[Image.Image]:
+    """Return the pictures of a span, `rate` of them for each second of the recording."""
     body = RecordedBody(recording)
     view = View(body.humanoid, WIDTH, HEIGHT, shadows=False)
     frames = []
     try:
-        for number in range(max(1, math.ceil((span.end - span.start) * FRAME_RATE) + 1)):
-            t = min(span.start + number / FRAME_RATE, span.end)
+        for number in range(max(1, math.ceil((span.end - span.start) * rate) + 1)):
+            t = min(span.start + number / rate, span.end)
             body.show(t)
             frames.append(with_captions(view.picture(camera), t, recording.moments))
     finally:

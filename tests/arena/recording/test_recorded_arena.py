@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
+from markupsafe import escape
 from rosbags.highlevel import AnyReader
 
 from audited.proof import enough_to_catch
@@ -93,13 +95,14 @@ def test_without_a_recording_the_grade_is_the_same_and_no_posture_is_sampled(
     assert not any(run.postures for run in runs)
 
 
-def test_check_keeps_visible_scenarios_only_and_names_the_folder(tmp_path: Path) -> None:
+def test_check_keeps_visible_scenarios_only_and_writes_a_page_to_show(tmp_path: Path) -> None:
     source = known_submission("battery_service", "faulty/answers_from_a_cache").read().sources
     (tmp_path / "battery_service.py").write_text(source["battery_service.py"])
     ran = subprocess.run(
         [
             Path(sys.executable).with_name("course"),
             *("check", "battery_service", "battery_service.py", "--record", "--json", "verdicts.json"),
+            *("--page", "page.html"),
         ],
         cwd=tmp_path,
         env={**os.environ, "COLUMNS": "200"},
@@ -122,3 +125,9 @@ def test_check_keeps_visible_scenarios_only_and_names_the_folder(tmp_path: Path)
     assert shown == {check["id"] for check in checks}
     assert any(Recording.read(path).first_failed for path in files)
     assert all(Recording.read(path).about["shows_hidden_checks"] == "no" for path in files)
+    page = (tmp_path / "page.html").read_text()
+    assert all(escape(check["title"]) in page for check in checks)
+    assert escape(source["battery_service.py"].splitlines()[0]) in page
+    assert "No robot moves in this exercise" in page
+    assert "<svg" in page
+    assert re.search(r"page\.html: \d+ kB", ran.stdout)

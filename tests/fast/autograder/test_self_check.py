@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import typer
 
 from autograder import self_check as module
+from autograder.authoring.evidence import events as ev
+from autograder.authoring.evidence.transcript import Transcript
+from autograder.engine.exercise import Exercise
+from autograder.engine.grading import Watcher
+from autograder.engine.submission import Submission
 from autograder.engine.verdict import CheckStatus, CheckVerdict, Grade
 from course_cli.commands.check import check
 
@@ -43,3 +49,29 @@ def test_the_command_keeps_it_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
         check("battery_service", tmp_path / "missing.py", json_file=None, jobs=1, course=None)
     assert ended.value.exit_code == 1
     assert kept == KEPT
+
+
+def test_a_notebooks_self_check_draws_what_failed_and_writes_the_page(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "battery_service.py").write_text("import rclpy\n")
+    result = graded("failed")
+    run = Transcript.from_events("in_order", {}, [ev.NodeReady(t=0.5, waited=0.5)])
+    drawn: list[str] = []
+
+    def grade(
+        submission: Submission, exercise: Exercise, options: object, watcher: Watcher, **_: object
+    ) -> Grade:
+        watcher.on_evidence(result.checks[0], [run])
+        return result
+
+    table = SimpleNamespace(add=lambda verdict: None, draw=lambda verdict, runs: drawn.append(verdict.id))
+    monkeypatch.setattr("rich.console._is_jupyter", lambda: True)
+    monkeypatch.setattr(module, "_save_notebook", lambda: None)
+    monkeypatch.setattr(module, "_notebook_table", lambda exercise: table)
+    monkeypatch.setattr(module, "grade", grade)
+    monkeypatch.setattr(module, "store_check", lambda *entry: None)
+    monkeypatch.chdir(tmp_path)
+    module.self_check("battery_service", page="shown.html")
+    assert drawn == ["check_0"]
+    assert "<h3>battery_service.py</h3>" in Path("shown.html").read_text()
