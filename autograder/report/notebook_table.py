@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from base64 import b64encode
 from collections.abc import Sequence
 from threading import Lock
 
@@ -26,6 +27,7 @@ class NotebookTable:
         self._checks = checks
         self._verdicts: dict[str, CheckVerdict] = {}
         self._drawings: dict[str, Markup] = {}
+        self._films: dict[str, Markup] = {}
         self._changing = Lock()
         self._shown = display(self._content(), raw=True, display_id=True)
 
@@ -43,6 +45,14 @@ class NotebookTable:
                 self._drawings[verdict.id] = Markup(transcript_svg(transcripts[-1], title))
                 self._update()
 
+    def film(self, check_id: str, words: str, webp: bytes = b"") -> None:
+        """Show a film of the seconds around a failure, or the words instead of one; empty words remove the entry."""
+        data = b64encode(webp).decode()
+        image = Markup('<img src="data:image/webp;base64,{}" alt="{}">').format(data, words)
+        with self._changing:
+            self._films[check_id] = image if webp else escape(words)
+            self._update()
+
     def _update(self) -> None:
         if self._shown is not None:
             self._shown.update(self._content(), raw=True)
@@ -55,7 +65,9 @@ class NotebookTable:
             "not judged yet": [check.title for check in self._checks if check.id not in self._verdicts],
         }
         template = ENVIRONMENT.get_template("self_check.html")
-        html = template.render(judged=judged, folded=folded, drawings=self._drawings, with_links=with_links)
+        html = template.render(
+            judged=judged, folded=folded, drawings=self._drawings, films=self._films, with_links=with_links
+        )
         return {"text/html": html, "text/plain": "\n".join(map(_in_text, judged))}
 
 

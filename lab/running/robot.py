@@ -6,6 +6,7 @@ from lab.client import topics
 from lab.client.connection import NAMESPACE, connection
 from lab.client.waiting import becomes_true
 from lab.errors import NoRobotError
+from lab.notices import notice
 from lab.running.processes import Process
 from ros_runtime.notebook_domains import expect_node, forget_node
 
@@ -29,7 +30,9 @@ def start_robot(scene: str = "flat") -> None:
         topics.reset_for_scene(scene)
         _robot = Process(["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1", "--scene", scene])
     robot = _robot
-    if not becomes_true(lambda: topics.has_published() or not robot.is_running, START_TIMEOUT):
+    with notice("The robot is starting, which takes a few seconds, on a busy machine up to 30 s."):
+        is_up = becomes_true(lambda: topics.has_published() or not robot.is_running, START_TIMEOUT)
+    if not is_up:
         raise NoRobotError(
             f"the robot runs, but not all of its topics were received within {START_TIMEOUT:g} s. The machine may be "
             f"too busy; try lab.restart_robot(). The robot printed:\n{robot.output()}"

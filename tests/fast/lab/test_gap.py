@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -75,18 +77,23 @@ def test_lines_that_are_not_python_are_quoted() -> None:
         write_and_check("double.py", "def double(x):\n    return (2 x\n")
 
 
-def test_a_long_check_says_at_once_how_long_it_takes(
+def test_while_a_check_runs_a_notice_says_what_is_tried_and_how_long_it_takes(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    printed_before: list[str] = []
+    shown: list[str] = []
 
-    def check() -> str:
-        printed_before.append(capsys.readouterr().out)
-        return "done"
+    @contextmanager
+    def notice(text: str) -> Iterator[None]:
+        shown.append(text)
+        yield
 
-    monkeypatch.setattr(gap_module, "read_gaps", lambda chapter: (Gap("double.py", check, duration=8),))
+    gap = Gap("double.py", lambda: "done", duration=8)
+    monkeypatch.setattr(gap_module, "read_gaps", lambda chapter: (gap,))
+    monkeypatch.setattr(gap_module, "notice", notice)
     write_and_check("double.py", fill(PROGRAM, "return 2 * x\n"))
-    assert printed_before == ["double.py: the check takes about 8 s\n"]
+    assert "double.py runs" in shown[0]
+    assert "about 8 s" in shown[0]
+    assert capsys.readouterr().out == "✓ double.py: done\n"
 
 
 def test_correct_lines_are_confirmed_and_saved(capsys: pytest.CaptureFixture[str]) -> None:
