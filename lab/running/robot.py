@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import os
+from contextlib import suppress
+
+import psutil
+
 from lab.client import topics
 from lab.client.connection import NAMESPACE, connection
 from lab.client.waiting import becomes_true
 from lab.errors import NoRobotError
 from lab.notices import notice
 from lab.running.processes import Process
+from ros_runtime import notebook_domains
 from ros_runtime.notebook_domains import expect_node, forget_node
 
 START_TIMEOUT = 30.0  # s
+COMMAND = ["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1"]
 NODE_NAME = f"{NAMESPACE}/humanoid"
 
 _robot: Process | None = None
@@ -28,7 +35,7 @@ def start_robot(scene: str = "flat") -> None:
     domain_id = connection().domain_id  # also sets the environment that the child inherits
     if _robot is None or not _robot.is_running:
         topics.reset_for_scene(scene)
-        _robot = Process(["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1", "--scene", scene])
+        _robot = Process([*COMMAND, "--scene", scene])
     robot = _robot
     with notice("The robot is starting, which takes a few seconds, on a busy machine up to 30 s."):
         is_up = becomes_true(lambda: topics.has_published() or not robot.is_running, START_TIMEOUT)
@@ -44,6 +51,27 @@ def start_robot(scene: str = "flat") -> None:
     forget_node(NODE_NAME)  # an entry of a robot that was already running, or that crashed
     expect_node(NODE_NAME)
     print(f"The robot is up in namespace {NAMESPACE}, ROS_DOMAIN_ID {domain_id}.")
+    if others := _robots_of_other_notebooks():
+        print(
+            f"Robots of other notebooks that still run: {others}. Each takes a tenth of a processor. "
+            "lab.stop_everything() in its notebook ends it, and so does shutting down that notebook's kernel."
+        )
+
+
+def _robots_of_other_notebooks() -> int:
+    """Return how many robots run in the same JupyterLab, apart from this notebook's."""
+    started_by = os.environ.get(notebook_domains.VARIABLE)
+    found = 0
+    for process in psutil.process_iter() if started_by else ():
+        with suppress(psutil.Error):  # it has ended, or belongs to somebody else
+            is_robot = process.cmdline()[1:3] == COMMAND[:2] and process.ppid() != os.getpid()
+            found += is_robot and process.environ().get(notebook_domains.VARIABLE) == started_by
+    return found
+
+
+def robot_is_running() -> bool:
+    """Whether the robot that `start_robot()` started still runs."""
+    return _robot is not None and _robot.is_running
 
 
 def robot_process() -> Process:
