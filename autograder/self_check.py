@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -25,7 +24,6 @@ from autograder.report.table import grade_table, print_beginning, print_retry, p
 from ros_runtime.self_checks import store_check
 
 if TYPE_CHECKING:
-    from autograder.authoring.evidence.transcript import Transcript
     from autograder.recording.recorder import Recorder
     from autograder.report.notebook_table import NotebookTable
 
@@ -130,7 +128,6 @@ def check_with_progress(
         )
         console.print(said, style="yellow", markup=False)
     table = _notebook_table(loaded) if Console().is_jupyter else None
-    evidence: dict[str, Sequence[Transcript]] = {}  # of failed checks
     with RunningLine(console, in_notebook=table is not None) as line:
 
         def report(verdict: CheckVerdict) -> None:
@@ -141,23 +138,17 @@ def check_with_progress(
             with line.aside():
                 print_retry(console, check)
 
-        def draw(verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> None:
-            if table and verdict.status == "failed":
-                evidence[verdict.id] = transcripts
-                table.draw(verdict, transcripts)
-
-        is_recorded = recorder is not None or table is not None
-        options = GradingOptions(jobs=jobs, first_alone=True, recorded=is_recorded)
+        options = GradingOptions(jobs=jobs, first_alone=True, recorded=bool(recorder or table))
         watcher = Watcher(report, on_retry, on_running=line.show)
         if table:
-            watcher = Watcher(table.add, on_evidence=draw, on_running=line.show)
+            watcher = Watcher(table.add, on_evidence=table.draw, on_running=line.show)
         if recorder:
             watcher = replace(watcher, on_evidence=recorder.add)
         result = grade(submission, loaded, options, watcher, arenas=arenas)
     console.print()
     console.print(Text(summary(result), style="bold") if table else grade_table(result))
-    if table and evidence:
-        _add_films(table, loaded, result, evidence)
+    if table and table.evidence:
+        _add_films(table, loaded, result)
     if recordings and recorder:
         _keep_recordings(console, recordings, recorder.files(result))
     return result
@@ -170,28 +161,25 @@ def _notebook_table(exercise: Exercise) -> NotebookTable:
     return NotebookTable(exercise.checks)
 
 
-def _add_films(
-    table: NotebookTable, exercise: Exercise, grade: Grade, evidence: Mapping[str, Sequence[Transcript]]
-) -> None:
+def _add_films(table: NotebookTable, exercise: Exercise, grade: Grade) -> None:
     """Film the seconds around the first failures, now that all verdicts are known; an interrupt ends only this."""
-    from autograder.recording.replay.failure_film import (
-        FailureFilms,
-    )  # imported only if needed: it loads MuJoCo
+    # imported only if needed, because it loads MuJoCo
+    from autograder.recording.replay.failure_film import FailureFilms
 
     films = FailureFilms(exercise, grade)
     for verdict in grade.checks:
-        if verdict.id not in evidence or verdict.robot_time is None:
+        if verdict.id not in table.evidence or verdict.robot_time is None:
             continue
-        film = None
+        words, webp = "", b""
         table.film(verdict.id, "is being drawn …")
         try:
-            film = films.of(verdict, evidence[verdict.id])
+            words, webp = films.of(verdict, table.evidence[verdict.id])
         except KeyboardInterrupt:
             return
         except Exception:  # a failed film must not affect the self-check
             logging.getLogger(__name__).exception("no film of %s", verdict.id)
         finally:
-            table.film(verdict.id, film.words if film else "", film.webp if film else b"")
+            table.film(verdict.id, words, webp)
 
 
 def _recorder(exercise: Exercise) -> Recorder:

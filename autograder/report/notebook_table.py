@@ -21,9 +21,14 @@ _LESSON = re.compile(r"chapters/(\w+)\.ipynb(?:, “([^”]+)”)?")
 
 
 class NotebookTable:
-    """Shows the verdicts of a self-check; its methods may be called on any thread."""
+    """Shows the verdicts of a self-check; its methods may be called on any thread.
+
+    Attributes:
+        evidence: the runs on which each failed check was judged, by its id.
+    """
 
     def __init__(self, checks: Sequence[Check]) -> None:
+        self.evidence: dict[str, Sequence[Transcript]] = {}
         self._checks = checks
         self._verdicts: dict[str, CheckVerdict] = {}
         self._drawings: dict[str, Markup] = {}
@@ -42,6 +47,7 @@ class NotebookTable:
         if verdict.status == "failed" and transcripts:
             title = transcripts[-1].scenario.replace("_", " ")
             with self._changing:
+                self.evidence[verdict.id] = transcripts
                 self._drawings[verdict.id] = Markup(transcript_svg(transcripts[-1], title))
                 self._update()
 

@@ -115,6 +115,18 @@ def _require_python(file: str, program: str) -> None:
         raise GapError(f"{file}: {problem.msg}: `{line}`") from None
 
 
+def _name_syntax_error(result: Any) -> None:
+    """Print the syntax error of a program that a `%%writefile` cell has written."""
+    head, _, program = (result.info.raw_cell or "").partition("\n")
+    magic, _, file = head.partition(" ")
+    if magic == "%%writefile" and is_python(file.strip()):
+        try:
+            _require_python(file.strip(), program)
+        except GapError as problem:
+            print(f"The file is written, but Python cannot run it. {problem}")
+
+
 if get_ipython() is not None:  # in a notebook
+    get_ipython().events.register("post_run_cell", _name_syntax_error)
     register: Any = register_cell_magic("gap")  # Any: IPython declares this type for methods only
     register(write_and_check)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -24,14 +24,6 @@ LEAST_MOTION = 0.05  # m or rad; a standing robot sways by less
 MOST_FILMS = 3  # of one self-check; each takes about 2 s and 0.7 MB of the notebook
 
 
-@dataclass(frozen=True)
-class FailureFilm:
-    """An animated WebP, and what it shows in words; empty if an earlier film shows the same seconds."""
-
-    webp: bytes
-    words: str
-
-
 class FailureFilms:
     """Films the seconds around the first failures of a self-check of an exercise."""
 
@@ -40,21 +32,24 @@ class FailureFilms:
         self._grade = grade
         self._filmed: list[tuple[CheckVerdict, Transcript, Span]] = []
 
-    def of(self, verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> FailureFilm | None:
-        """Film a failure; None if it has no time, if nothing moved then, or after MOST_FILMS films.
+    def of(self, verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> tuple[str, bytes]:
+        """Film a failure; return the film in words, and as animated WebP.
+
+        There are only words if the film cannot be drawn, or if an earlier film shows the same seconds. There is nothing
+        at all if the failure has no time, if nothing moved then, and after MOST_FILMS films.
 
         `transcripts` are those that the check was judged on, one for each of its scenarios.
         """
         check = next(check for check in self._exercise.checks if check.id == verdict.id)
         failed = failed_scenarios(check, transcripts)
         if verdict.robot_time is None or not (check.obligations or len(failed) == 1):
-            return None  # without obligations a check judges all its scenarios together: any may be meant
+            return "", b""  # without obligations a check judges all its scenarios together: any may be meant
         run = transcripts[check.on.index(failed[0])]
         for earlier, filmed, span in self._filmed:
             if run is filmed and span.start <= verdict.robot_time <= span.end:
-                return FailureFilm(b"", f"These seconds are in the film of “{earlier.title}”.")
+                return f"These seconds are in the film of “{earlier.title}”.", b""
         if len(self._filmed) == MOST_FILMS:
-            return None
+            return "", b""
         with TemporaryDirectory() as folder:
             alone = replace(self._exercise, checks=[replace(check, on=(failed[0],))])
             recorder = Recorder(alone, for_students=True)
@@ -64,14 +59,14 @@ class FailureFilms:
             span = span_of(recording, verdict.id, None)
             shown = [posture for posture in recording.postures if span.start <= posture.t <= span.end]
             if not _moves(shown):
-                return None
+                return "", b""
             self._filmed.append((verdict, run, span))
             webp = Path(folder, "film.webp")
             try:
                 film(recording, span, webp)
             except NoOpenGLError as error:
-                return FailureFilm(b"", f"No film: {error}")
-            return FailureFilm(webp.read_bytes(), _words(shown, verdict))
+                return f"No film: {error}", b""
+            return _words(shown, verdict), webp.read_bytes()
 
 
 def _moves(shown: Sequence[Posture]) -> bool:
@@ -82,9 +77,9 @@ def _moves(shown: Sequence[Posture]) -> bool:
 
 def _words(shown: Sequence[Posture], verdict: CheckVerdict) -> str:
     """Return the alternative text of a film of these postures."""
-    (x, y, height), (end_x, end_y, end_height) = shown[0].base[:3], shown[-1].base[:3]
+    first, last = shown[0], shown[-1]
     return (
-        f"The robot from {shown[0].t:.1f} to {shown[-1].t:.1f} s; the check fails at {verdict.robot_time:.1f} s. "
-        f"The robot moves {math.dist((x, y), (end_x, end_y)):.2f} m. Its pelvis is {height:.2f} m above the floor at "
-        f"the beginning and {end_height:.2f} m at the end."
+        f"The robot from {first.t:.1f} to {last.t:.1f} s; the check fails at {verdict.robot_time:.1f} s. It moves "
+        f"{math.dist(first.base[:2], last.base[:2]):.2f} m. Its pelvis is {first.base[2]:.2f} m above the floor at the "
+        f"beginning and {last.base[2]:.2f} m at the end."
     )

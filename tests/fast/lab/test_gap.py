@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -135,3 +136,22 @@ def test_a_definition_has_another_placeholder_and_is_not_compiled(
     write_and_check("Walk.srv", fill(DEFINITION, lines))
     assert Path("Walk.srv").read_text() == "float64 speed  # m/s\n---\nbool success\n"
     assert capsys.readouterr().out == "✓ Walk.srv: a speed\n"
+
+
+@pytest.mark.parametrize(
+    ("cell", "printed"),
+    [
+        (
+            "%%writefile a.py\nx = (1\n",
+            "The file is written, but Python cannot run it. a.py: '(' was never closed: `x = (1`\n",
+        ),
+        ("%%writefile a.py\nx = 1\n", ""),
+        ("%%writefile a.yaml\nx: [1\n", ""),
+        ("x = 1", ""),
+    ],
+)
+def test_a_syntax_error_in_a_written_file_is_named_at_once(
+    cell: str, printed: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    gap_module._name_syntax_error(SimpleNamespace(info=SimpleNamespace(raw_cell=cell)))
+    assert capsys.readouterr().out == printed

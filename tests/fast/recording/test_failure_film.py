@@ -15,9 +15,11 @@ from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.recording.replay import failure_film
-from autograder.recording.replay.failure_film import MOST_FILMS, FailureFilm, FailureFilms
+from autograder.recording.replay.failure_film import MOST_FILMS, FailureFilms
 from falls import FELL_AT, WALK, exercise, judged, simulated, stays_up, walk
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
+
+NOTHING = ("", b"")
 
 
 @check(on=WALK)
@@ -35,32 +37,31 @@ def films() -> FailureFilms:
     return FailureFilms(exercise(stays_up, walks_again), Grade("walk_to", "me", "namespaces", seed=4))
 
 
-def film_of(run: Transcript, **changes: Any) -> FailureFilm | None:
+def film_of(run: Transcript, **changes: Any) -> tuple[str, bytes]:
     return films().of(replace(judged(stays_up, run), **changes), [run])
 
 
 def test_the_film_shows_the_fall_in_less_than_a_megabyte(fall: Transcript) -> None:
-    film = film_of(fall)
-    assert film
-    assert len(film.webp) < 2**20
-    with Image.open(io.BytesIO(film.webp)) as moving:
+    words, webp = film_of(fall)
+    assert len(webp) < 2**20
+    with Image.open(io.BytesIO(webp)) as moving:
         assert moving.is_animated
-    assert "from 0.0 to 2.0 s; the check fails at 1.5 s" in film.words
-    assert "pelvis is 0.6" in film.words
+    assert "from 0.0 to 2.0 s; the check fails at 1.5 s" in words
+    assert "pelvis is 0.6" in words
 
 
 def test_a_failure_without_a_time_or_a_moving_robot_has_none(fall: Transcript) -> None:
     stands = walk(postures=simulated(seconds=0.9)[0])
-    assert film_of(fall, robot_time=None) is None
-    assert film_of(stands) is None
-    assert film_of(walk()) is None
+    assert film_of(fall, robot_time=None) == NOTHING
+    assert film_of(stands) == NOTHING
+    assert film_of(walk()) == NOTHING
 
 
 def test_the_same_seconds_are_filmed_once(fall: Transcript) -> None:
     of_one = films()
-    assert of_one.of(judged(stays_up, fall), [fall]).webp  # type: ignore[union-attr]
+    assert of_one.of(judged(stays_up, fall), [fall])[1]
     again = of_one.of(judged(walks_again, fall), [fall])
-    assert again == FailureFilm(b"", "These seconds are in the film of “The robot stays upright”.")
+    assert again == ("These seconds are in the film of “The robot stays upright”.", b"")
 
 
 def test_no_more_than_the_first_failures_are_filmed(
@@ -70,7 +71,7 @@ def test_no_more_than_the_first_failures_are_filmed(
     runs = [replace(fall) for _ in range(MOST_FILMS + 1)]
     of_one = films()
     made = [of_one.of(judged(stays_up, run), [run]) for run in runs]
-    assert [film is not None for film in made] == [True] * MOST_FILMS + [False]
+    assert [webp == b"film" for _, webp in made] == [True] * MOST_FILMS + [False]
 
 
 def test_without_opengl_the_reason_is_said(fall: Transcript, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -78,7 +79,7 @@ def test_without_opengl_the_reason_is_said(fall: Transcript, monkeypatch: pytest
         raise NoOpenGLError("no EGL")
 
     monkeypatch.setattr(failure_film, "film", film)
-    assert film_of(fall) == FailureFilm(b"", "No film: no EGL")
+    assert film_of(fall) == ("No film: no EGL", b"")
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt(), RuntimeError("broken")])
@@ -88,6 +89,9 @@ def test_a_film_that_is_interrupted_or_breaks_leaves_the_verdicts(
     shown: list[tuple] = []
 
     class Table:
+        def __init__(self) -> None:
+            self.evidence = {"stays_up": [fall]}
+
         def film(self, *entry: Any) -> None:
             shown.append(entry)
 
@@ -97,5 +101,5 @@ def test_a_film_that_is_interrupted_or_breaks_leaves_the_verdicts(
     monkeypatch.setattr(FailureFilms, "of", of)
     verdict: CheckVerdict = judged(stays_up, fall)
     grade = Grade("walk_to", "me", "namespaces", [verdict])
-    module._add_films(Table(), exercise(), grade, {verdict.id: [fall]})  # type: ignore[arg-type]
+    module._add_films(Table(), exercise(), grade)  # type: ignore[arg-type]
     assert shown == [("stays_up", "is being drawn …"), ("stays_up", "", b"")]
