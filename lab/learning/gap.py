@@ -126,7 +126,7 @@ def _name_syntax_error(result: Any) -> None:
             print(f"The file is written, but Python cannot run it. {problem}")
 
 
-if get_ipython() is not None:  # in a notebook
-    get_ipython().events.register("post_run_cell", _name_syntax_error)
+if (shell := get_ipython()) is not None:  # in a notebook
+    shell.events.register("post_run_cell", _name_syntax_error)
     register: Any = register_cell_magic("gap")  # Any: IPython declares this type for methods only
     register(write_and_check)
