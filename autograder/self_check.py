@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -130,7 +131,7 @@ def check_with_progress(
             with line.aside():
                 print_retry(console, check)
 
-        options = GradingOptions(jobs=jobs, first_alone=True, recorded=recorder is not None)
+        options = GradingOptions(jobs=jobs, first_alone=True, recorded=bool(recorder or table))
         watcher = Watcher(report, on_retry, on_running=line.show)
         if table:
             watcher = Watcher(table.add, on_evidence=table.draw, on_running=line.show)
@@ -139,6 +140,8 @@ def check_with_progress(
         result = grade(submission, loaded, options, watcher, arenas=arenas)
     console.print()
     console.print(Text(summary(result), style="bold") if table else grade_table(result))
+    if table and table.evidence:
+        _add_films(table, loaded, result)
     if recordings and recorder:
         _keep_recordings(console, recordings, recorder.files(result))
     if page and recorder and result.status == "graded":
@@ -159,6 +162,27 @@ def _notebook_table(exercise: Exercise) -> NotebookTable:
     from autograder.report.notebook_table import NotebookTable
 
     return NotebookTable(exercise.checks)
+
+
+def _add_films(table: NotebookTable, exercise: Exercise, grade: Grade) -> None:
+    """Film the seconds around the first failures, now that all verdicts are known; an interrupt ends only this."""
+    # imported only if needed, because it loads MuJoCo
+    from autograder.recording.replay.failure_film import FailureFilms
+
+    films = FailureFilms(exercise, grade)
+    for verdict in grade.checks:
+        if verdict.id not in table.evidence or verdict.robot_time is None:
+            continue
+        words, webp = "", b""
+        table.film(verdict.id, "is being drawn …")
+        try:
+            words, webp = films.of(verdict, table.evidence[verdict.id])
+        except KeyboardInterrupt:
+            return
+        except Exception:  # a failed film must not affect the self-check
+            logging.getLogger(__name__).exception("no film of %s", verdict.id)
+        finally:
+            table.film(verdict.id, words, webp)
 
 
 def _recorder(exercise: Exercise) -> Recorder:

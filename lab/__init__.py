@@ -8,11 +8,19 @@
 Every function that waits has a timeout, and its error says what was seen. Import `lab` before any ROS message type:
 it turns on rclpy's checks of field types by an environment variable that rclpy reads when it is first imported.
 """
-# ruff: noqa: F401
+# ruff: noqa: E402, F401
 
 import os
+from contextlib import ExitStack
 
 os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
+
+from lab import notices
+
+_loading = ExitStack()
+_loading.enter_context(
+    notices.notice("The lab is loading, which takes seconds, on a busy machine up to 20 s.")
+)
 
 from lab.client.commands import publish, walking
 from lab.client.connection import node
@@ -50,5 +58,7 @@ from lab.running.programs_folder import keep_programs_in
 from lab.running.robot import restart_robot, start_robot, stop_robot
 from lab.running.session import stop_everything
 from lab.running.student_nodes import StudentNode, run_node, stop_nodes
+
+_loading.close()
 
 __all__ = [name for name, each in globals().items() if getattr(each, "__module__", "").startswith("lab.")]

@@ -9,6 +9,7 @@ from typing import Any
 
 from autograder.authoring import lesson
 from autograder.authoring.checks import Check, Scenario
+from autograder.authoring.diagnosis.exit_diagnosis import SANDBOX_FOLDER
 from autograder.authoring.diagnosis.readiness import require_ready, require_started
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
@@ -115,5 +116,6 @@ def _require_evidence(check: Check, transcripts: Sequence[Transcript]) -> None:
 
 def _log(transcript: Transcript) -> str:
     """Return the last lines that the student's process printed, with their times."""
-    lines = [f"{event.t:7.2f} s  {event.text}" for event in transcript.all(ev.NodeOutput)][-LOG_LINES:]
+    printed = transcript.all(ev.NodeOutput)[-LOG_LINES:]
+    lines = [f"{event.t:7.2f} s  {SANDBOX_FOLDER.sub('', event.text)}" for event in printed]
     return "\n".join(lines)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from base64 import b64encode
 from collections.abc import Sequence
 from threading import Lock
 
@@ -20,12 +21,18 @@ _LESSON = re.compile(r"chapters/(\w+)\.ipynb(?:, “([^”]+)”)?")
 
 
 class NotebookTable:
-    """Shows the verdicts of a self-check; its methods may be called on any thread."""
+    """Shows the verdicts of a self-check; its methods may be called on any thread.
+
+    Attributes:
+        evidence: the runs on which each failed check was judged, by its id.
+    """
 
     def __init__(self, checks: Sequence[Check]) -> None:
+        self.evidence: dict[str, Sequence[Transcript]] = {}
         self._checks = checks
         self._verdicts: dict[str, CheckVerdict] = {}
         self._drawings: dict[str, Markup] = {}
+        self._films: dict[str, Markup] = {}
         self._changing = Lock()
         self._shown = display(self._content(), raw=True, display_id=True)
 
@@ -40,8 +47,17 @@ class NotebookTable:
         if verdict.status == "failed" and transcripts:
             title = transcripts[-1].scenario.replace("_", " ")
             with self._changing:
+                self.evidence[verdict.id] = transcripts
                 self._drawings[verdict.id] = Markup(transcript_svg(transcripts[-1], title))
                 self._update()
+
+    def film(self, check_id: str, words: str, webp: bytes = b"") -> None:
+        """Show a film of the seconds around a failure, or the words instead of one; empty words remove the entry."""
+        data = b64encode(webp).decode()
+        image = Markup('<img src="data:image/webp;base64,{}" alt="{}">').format(data, words)
+        with self._changing:
+            self._films[check_id] = image if webp else escape(words)
+            self._update()
 
     def _update(self) -> None:
         if self._shown is not None:
@@ -55,7 +71,9 @@ class NotebookTable:
             "not judged yet": [check.title for check in self._checks if check.id not in self._verdicts],
         }
         template = ENVIRONMENT.get_template("self_check.html")
-        html = template.render(judged=judged, folded=folded, drawings=self._drawings, with_links=with_links)
+        html = template.render(
+            judged=judged, folded=folded, drawings=self._drawings, films=self._films, with_links=with_links
+        )
         return {"text/html": html, "text/plain": "\n".join(map(_in_text, judged))}
 
 

@@ -11,7 +11,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, select_autoes
 from markupsafe import Markup
 
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.report.table import MARKS, summary
+from autograder.report.table import MARKS, SHOWN, summary
 
 ENVIRONMENT = Environment(
     loader=FileSystemLoader(Path(__file__).parent / "templates"),
@@ -20,7 +20,11 @@ ENVIRONMENT = Environment(
     trim_blocks=True,
     lstrip_blocks=True,
 )
-ENVIRONMENT.globals |= {"summary": summary, "marks": {status: mark for status, (mark, _) in MARKS.items()}}
+ENVIRONMENT.globals |= {
+    "summary": summary,
+    "marks": {status: mark for status, (mark, _) in MARKS.items()},
+    "shown": SHOWN,
+}
 
 
 @dataclass(frozen=True)

@@ -26,6 +26,7 @@ MARKS = {
     "to mark": ("…", "cyan"),
     "marked": ("•", "cyan"),
 }
+SHOWN = {"error": "not graded"}  # what the tables call a status
 LONGEST_TEXT = 8000  # characters
 _LINE_TIME = re.compile(r" *(\d+\.\d\d) s  ")
 
@@ -33,8 +34,10 @@ _LINE_TIME = re.compile(r" *(\d+\.\d\d) s  ")
 def print_beginning(console: Console, path: Path, exercise: Exercise) -> None:
     """Print what is checked and how long it takes, before the first verdict."""
     count = len(exercise.checks)
+    has_another_name = path.suffix == ".py" and path.name not in exercise.file_names
+    runs_as = f" It runs as {exercise.file_names[0]}." if has_another_name else ""
     console.print(
-        f"{path}: {count} checks, each shown as soon as its verdict is known.",
+        f"{path}: {count} checks, each shown as soon as its verdict is known.{runs_as}",
         markup=False,
     )
 
@@ -96,7 +99,7 @@ def grade_table(grade: Grade) -> RenderableType:
             Text(mark, colour),
             verdict.title + ("  (hidden)" if verdict.hidden else ""),
             _points(verdict),
-            Text(verdict.status, colour),
+            Text(SHOWN.get(verdict.status, verdict.status), colour),
         )
     return Group(table, Text(summary(grade), style="bold"))
 

@@ -17,6 +17,7 @@ from chapters.support import gaps
 from lab.errors import LabError
 from lab.learning.gap_cells import is_empty, is_python, placeholder
 from lab.learning.progress_file import store_entry
+from lab.notices import notice
 from lab.running.programs import stop_programs
 from lab.running.student_nodes import stop_nodes
 
@@ -91,12 +92,12 @@ def write_and_check(file: str, program: str) -> None:
         )
     if is_python(file):
         _require_python(file, program)
-    if gap.duration:
-        print(f"{file}: the check takes about {gap.duration} s", flush=True)
     stop_nodes()
     stop_programs()
     try:
-        summary = gap.check()
+        lasts = f"about {gap.duration} s" if gap.duration else "a few seconds"
+        with notice(f"{file} runs, and the check tries what it does: {lasts}, longer on a busy machine."):
+            summary = gap.check()
     except GapError as problem:
         raise GapError(f"{file}: {problem}") from None
     finally:
@@ -114,6 +115,18 @@ def _require_python(file: str, program: str) -> None:
         raise GapError(f"{file}: {problem.msg}: `{line}`") from None
 
 
-if get_ipython() is not None:  # in a notebook
+def _name_syntax_error(result: Any) -> None:
+    """Print the syntax error of a program that a `%%writefile` cell has written."""
+    head, _, program = (result.info.raw_cell or "").partition("\n")
+    magic, _, file = head.partition(" ")
+    if magic == "%%writefile" and is_python(file.strip()):
+        try:
+            _require_python(file.strip(), program)
+        except GapError as problem:
+            print(f"The file is written, but Python cannot run it. {problem}")
+
+
+if (shell := get_ipython()) is not None:  # in a notebook
+    shell.events.register("post_run_cell", _name_syntax_error)
     register: Any = register_cell_magic("gap")  # Any: IPython declares this type for methods only
     register(write_and_check)

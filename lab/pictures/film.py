@@ -74,7 +74,7 @@ def film_of_messages(
     count = _frames(seconds * slow_motion)
     words = f"The robot{''.join(f' and the {name}' for name in objects)} for {seconds:.1f} s"
     if slow_motion != 1.0:
-        words += f", {slow_motion:g} times as slow as it was"
+        words += f", slowed down {slow_motion:g} times"
     if marks:
         words += f" ({', '.join(f'{mark.label} at {mark.time:.1f} s' for mark in marks)})"
     begin, end = (odometry[index][1].pose.pose.position for index in (0, -1))

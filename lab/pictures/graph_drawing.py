@@ -34,7 +34,11 @@ def draw_graph(*names: str, title: str = "The graph now") -> HTML:
         )
         for topic in topics
     ]
-    return HTML(columns_svg(rows, headings=HEADINGS, title=title, words=_in_words(topics)))
+    return HTML(
+        columns_svg(
+            rows, headings=HEADINGS, title=title, words=_in_words(topics), broken_means="receives no messages"
+        )
+    )
 
 
 def _receives(topic: Topic, subscription: Endpoint) -> bool:

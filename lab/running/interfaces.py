@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 from lab.errors import LabError
+from lab.notices import notice
 from ros_runtime.interface_build.definitions import InvalidDefinitions
 from ros_runtime.interface_build.student_package import (
     BuiltPackage,
@@ -29,7 +30,8 @@ def build_interfaces(folder: str | Path) -> None:
     """
     source = _existing_folder(folder)
     try:
-        package = build_package(source, BUILDS, source.resolve().name)
+        with notice(f"{source.name} is being built, which takes about 10 s, on a busy machine minutes."):
+            package = build_package(source, BUILDS, source.resolve().name)
     except InvalidDefinitions as error:
         raise LabError(f"{source.name} was not built.\n{error}") from error
     except RuntimeError as error:

@@ -10,6 +10,7 @@ from lab.client import topics
 from lab.client.connection import NAMESPACE, connection
 from lab.client.waiting import becomes_true
 from lab.errors import NoRobotError
+from lab.notices import notice
 from lab.pictures.live_view import watch_beside_the_notebook
 from lab.running.processes import GRACE, Process
 from robot_sim.model.scenes import OBJECTS
@@ -43,7 +44,9 @@ def start_robot(scene: str = "flat") -> None:
         announce_robot(domain_id, _robot.pid)
     watch_beside_the_notebook()
     robot = _robot
-    if not becomes_true(lambda: topics.has_published() or not robot.is_running, START_TIMEOUT):
+    with notice("The robot is starting, which takes a few seconds, on a busy machine up to 30 s."):
+        is_up = becomes_true(lambda: topics.has_published() or not robot.is_running, START_TIMEOUT)
+    if not is_up:
         raise NoRobotError(
             f"the robot runs, but not all of its topics were received within {START_TIMEOUT:g} s. The machine may be "
             f"too busy; try lab.restart_robot(). The robot printed:\n{robot.output()}"
@@ -73,6 +76,11 @@ def _end_robot_of_another_notebook() -> str:
     except psutil.TimeoutExpired:
         robot.kill()
     return f" The robot of {other.notebook} has ended: you have one robot at a time."
+
+
+def robot_is_running() -> bool:
+    """Whether the robot that `start_robot()` started still runs."""
+    return _robot is not None and _robot.is_running
 
 
 def robot_process() -> Process:

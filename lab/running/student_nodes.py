@@ -11,6 +11,7 @@ from lab.client.connection import NAMESPACE, connection
 from lab.client.interaction_log import log
 from lab.client.waiting import becomes_true
 from lab.errors import LabError, NodeEndedError
+from lab.notices import notice
 from lab.running.processes import Process, ProcessHistory
 from ros_runtime.notebook_domains import expect_node, forget_node
 from ros_runtime.reachability import wait_until_reachable
@@ -39,14 +40,17 @@ def run_node(file: str | Path, *arguments: str) -> StudentNode:
     known = _nodes_seen()
     node = StudentNode(path, Process([str(path), *in_namespace(arguments)]))
     _nodes[path] = node
-    if becomes_true(lambda: not node.is_running or _nodes_seen().keys() - known, START_TIMEOUT):
-        deadline = time.monotonic() + START_TIMEOUT
-        for gid, name in _nodes_seen().items():
-            if gid not in known:
-                wait_until_reachable(
-                    connection().node, name, lambda: not node.is_running or time.monotonic() > deadline
-                )
-                node.expect(name)
+    with notice(
+        f"{path.name} is starting. Its node can be reached in a few seconds, on a busy machine in up to 20 s."
+    ):
+        if becomes_true(lambda: not node.is_running or _nodes_seen().keys() - known, START_TIMEOUT):
+            deadline = time.monotonic() + START_TIMEOUT
+            for gid, name in _nodes_seen().items():
+                if gid not in known:
+                    wait_until_reachable(
+                        connection().node, name, lambda: not node.is_running or time.monotonic() > deadline
+                    )
+                    node.expect(name)
     if not node.is_running and node.exit_status != 0:
         raise NodeEndedError(
             f"{path.name} ended at once with exit status {node.exit_status}. {_advice_and_output(node)}"

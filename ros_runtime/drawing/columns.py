@@ -37,8 +37,13 @@ class Row:
     fill: str = SAND
 
 
-def columns_svg(rows: Sequence[Row], *, headings: tuple[str, str, str], title: str, words: str) -> str:
-    """Draw the rows from top to bottom, each node once on each side; `words` is the text alternative."""
+def columns_svg(
+    rows: Sequence[Row], *, headings: tuple[str, str, str], title: str, words: str, broken_means: str
+) -> str:
+    """Draw the rows from top to bottom, each node once on each side; `words` is the text alternative.
+
+    `broken_means` is the legend of the broken lines, if there are any.
+    """
     heights = [TOP + index * ROW_HEIGHT for index in range(len(rows))]
     left = _places([(end.node, y) for row, y in zip(rows, heights, strict=True) for end in row.left])
     right = _places([(end.node, y) for row, y in zip(rows, heights, strict=True) for end in row.right])
@@ -55,6 +60,10 @@ def columns_svg(rows: Sequence[Row], *, headings: tuple[str, str, str], title: s
     parts += [_middle_box(y, row) for row, y in zip(rows, heights, strict=True)]
     parts += [_node_box(RIGHT_X, y, node) for node, y in right.items()]
     height = max([*heights, *left.values(), *right.values()]) + ROW_HEIGHT + MARGIN
+    if any(end.broken for row in rows for end in (*row.left, *row.right)):
+        parts.append(_line(MARGIN, height, MARGIN + GAP, height, broken=True))
+        parts.append(f'<text x="{MARGIN + GAP + 8}" y="{height + 17}">{escape(broken_means)}</text>')
+        height += ROW_HEIGHT
     return svg(parts, width=WIDTH, height=height, title=title, words=words)
 
 

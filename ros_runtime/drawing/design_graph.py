@@ -22,7 +22,7 @@ def design_svg(design: Design, *, title: str) -> str:
         raise ValueError("a design needs at least one link")
     rows = [_row(link) for link in design.links[:MOST_LINKS]]
     words = " ".join(f"{link}: {link.pattern} {link.type}." for link in design.links[:MOST_LINKS])
-    return columns_svg(rows, headings=HEADINGS, title=title, words=words)
+    return columns_svg(rows, headings=HEADINGS, title=title, words=words, broken_means="lacks a fact")
 
 
 def _row(link: Link) -> Row:

@@ -17,6 +17,9 @@ SERVES_ONE_REQUEST = "02_services#first-intro"
 WRONG_TYPE = "02_services#fields-why"
 CRASHES = "02_services#m9-why"
 OWN_FILE = re.compile(r"/work(?:-[^/]+)?/(\w+\.py)$")  # the folder in which a student's program runs
+SANDBOX_FOLDER = re.compile(
+    r'(?<=File ")[^"]*/work(?:-[^/"]+)?/(?=\w+\.py")'
+)  # before the file's name in a traceback
 _CRASHED = (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS)
 
 
@@ -81,6 +84,10 @@ _SIGNS: dict[str, Remedy] = {
         "rclpy's executor is no asyncio event loop, so asyncio.sleep() fails in a callback. Await a future of "
         "rclpy, or do not wait.",
         "05_executors#m3-why",
+    ),
+    r"^ValueError: (too many|not enough) values to unpack": Remedy(
+        "A value has another number of parts than the names it is unpacked to. Look for a missing comma: "
+        '("topic" "a") is one string, and ("topic", "a") are two.',
     ),
     r"No space left on device|File too large": Remedy(
         "It wrote too much to disk: do not write files in a callback or in a loop."

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from autograder.authoring.diagnosis.exit_diagnosis import remedy_for_a_traceback
 from autograder.authoring.diagnosis.missing import Missing, unseen
 from autograder.authoring.diagnosis.readiness import require_within_limits
 from autograder.authoring.diagnosis.stack_location import where_it_waited
@@ -63,11 +64,14 @@ def require_end(run: Transcript, within: float) -> ev.NodeExited:
 def require_success(run: Transcript, within: float) -> None:
     """Require that the program ended with status 0, in time."""
     exited = require_end(run, within)
+    remedy = remedy_for_a_traceback(run.output("stderr"))
     expect(
         exited.returncode == 0,
         expected="exit status 0",
         observed=how_it_ended(run, exited),
-        help="Return 0 from main() when the answers have arrived, and end the file with sys.exit(main()). An uncaught "
+        help=remedy.help
+        if remedy
+        else "Return 0 from main() when the answers have arrived, and end the file with sys.exit(main()). An uncaught "
         "exception ends a program with status 1.",
         at=exited.t,
     )

@@ -333,6 +333,6 @@ def _require_steps_at_the_end(server: _Server, outcome: Outcome) -> None:
 
 GAPS = (
     Gap("cancellable_turn.py", canceled_when_the_robot_stands),
-    Gap("careful_turn.py", fills_the_result_before_the_terminal_call),
-    Gap("preemptable_turn.py", aborts_the_older_goal),
+    Gap("careful_turn.py", fills_the_result_before_the_terminal_call, duration=8),
+    Gap("preemptable_turn.py", aborts_the_older_goal, duration=8),
 )

@@ -218,6 +218,6 @@ def _error_in_log(node: StudentNode) -> str:
 
 GAPS = (
     Gap("two_groups.py", heartbeat_continues_during_the_sleep),
-    Gap("awaiting.py", waits_without_a_thread),
-    Gap("report_fixed.py", reports_or_refuses),
+    Gap("awaiting.py", waits_without_a_thread, duration=10),
+    Gap("report_fixed.py", reports_or_refuses, duration=8),
 )

@@ -324,7 +324,7 @@ def _trial(name: str) -> list[dict[str, Any]]:
 
 GAPS = (
     Gap("rejecting_walk.py", rejects_what_cannot_work),
-    Gap("settled_walk.py", measures_after_the_robot_stands),
-    Gap("told_walk.py", publishes_feedback),
+    Gap("settled_walk.py", measures_after_the_robot_stands, duration=8),
+    Gap("told_walk.py", publishes_feedback, duration=8),
     Gap("follow.py", reads_the_status_first),
 )

@@ -197,7 +197,10 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
 
     notebook.get_by_text("prediction_1.reply()").click()
     page.keyboard.press("Shift+Enter")
-    page.get_by_text(re.compile(r"You predicted c: \w+")).wait_for()  # which one c is, your number says
+    reply = page.get_by_text(re.compile(r"You predicted c: \w+"))  # which one c is, your number says
+    reply.wait_for()
+    assert reply.evaluate("pre => getComputedStyle(pre).wordBreak") == "normal"
+    assert notebook.locator(".jp-CodeCell .cm-lineWrapping").count() > 0
 
 
 def test_a_self_check_saves_the_program_that_it_checks(page: Page, folder: Path, address: str) -> None:

@@ -71,3 +71,16 @@ def test_a_wrong_answer_fails_with_the_reason_against_it():
 def test_a_number_of_thousands_of_digits_is_not_read_as_a_situation():
     seen = verdicts(*LINES, "9" * 5000 + " topic a")
     assert all(verdict.status == "passed" for verdict in seen.values())
+
+
+def test_a_missing_comma_is_named_and_the_log_shows_the_students_own_file():
+    traceback = ["Traceback (most recent call last):", '  File "/tmp/work/patterns.py", line 9, in <module>']
+    traceback += ["    main()", "ValueError: too many values to unpack (expected 2)"]
+    printed = [ev.NodeOutput(t=2.0, stream="stderr", text=line) for line in traceback]
+    begin = [ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0)]
+    end = [ev.NodeExited(t=3.0, returncode=1), ev.ScenarioEnded(t=3.1)]
+    run = Transcript.from_events("print_answers", {}, [*begin, *printed, *end])
+    verdict = judge(CHECKS[0], [run])
+    assert "Look for a missing comma" in verdict.help
+    assert '  File "patterns.py", line 9, in <module>' in verdict.log
+    assert "/tmp/work" not in verdict.log

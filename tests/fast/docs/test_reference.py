@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from functools import cache
 from pathlib import Path
@@ -16,6 +17,7 @@ from rclpy.client import Client
 from rclpy.node import Node
 
 import lab
+from autograder.classroom.archives.student_bundle import README, SHOWN, files_of
 from autograder.engine.exercise import exercise_names, load_exercise
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -192,3 +194,18 @@ def test_the_links_of_a_page_lead_somewhere(page: Path) -> None:
     )  # it becomes the README of the students' archive
     links = re.findall(r"\]\(([^)\s#]+)", page.read_text())
     assert [link for link in links if "://" not in link and not (base / link).exists()] == []
+
+
+def test_the_pages_of_the_students_archive_link_only_to_what_it_contains() -> None:
+    pages = {path.relative_to(ROOT): path for path in files_of(ROOT, SHOWN)}
+    shown = {*pages, *(path.relative_to(ROOT) for path in ROOT.glob("exercises/*/*.ipynb"))}
+    shown |= {folder for path in shown for folder in path.parents}
+    pages[Path("README.md")] = ROOT / README
+    missing = [
+        (str(name), link)
+        for name, path in pages.items()
+        if path.suffix == ".md"
+        for link in re.findall(r"\]\(([^)\s#]+)", path.read_text())
+        if "://" not in link and Path(os.path.normpath(name.parent / link)) not in shown
+    ]
+    assert missing == []

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -75,18 +78,23 @@ def test_lines_that_are_not_python_are_quoted() -> None:
         write_and_check("double.py", "def double(x):\n    return (2 x\n")
 
 
-def test_a_long_check_says_at_once_how_long_it_takes(
+def test_while_a_check_runs_a_notice_says_what_is_tried_and_how_long_it_takes(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    printed_before: list[str] = []
+    shown: list[str] = []
 
-    def check() -> str:
-        printed_before.append(capsys.readouterr().out)
-        return "done"
+    @contextmanager
+    def notice(text: str) -> Iterator[None]:
+        shown.append(text)
+        yield
 
-    monkeypatch.setattr(gap_module, "read_gaps", lambda chapter: (Gap("double.py", check, duration=8),))
+    gap = Gap("double.py", lambda: "done", duration=8)
+    monkeypatch.setattr(gap_module, "read_gaps", lambda chapter: (gap,))
+    monkeypatch.setattr(gap_module, "notice", notice)
     write_and_check("double.py", fill(PROGRAM, "return 2 * x\n"))
-    assert printed_before == ["double.py: the check takes about 8 s\n"]
+    assert "double.py runs" in shown[0]
+    assert "about 8 s" in shown[0]
+    assert capsys.readouterr().out == "✓ double.py: done\n"
 
 
 def test_correct_lines_are_confirmed_and_saved(capsys: pytest.CaptureFixture[str]) -> None:
@@ -128,3 +136,22 @@ def test_a_definition_has_another_placeholder_and_is_not_compiled(
     write_and_check("Walk.srv", fill(DEFINITION, lines))
     assert Path("Walk.srv").read_text() == "float64 speed  # m/s\n---\nbool success\n"
     assert capsys.readouterr().out == "✓ Walk.srv: a speed\n"
+
+
+@pytest.mark.parametrize(
+    ("cell", "printed"),
+    [
+        (
+            "%%writefile a.py\nx = (1\n",
+            "The file is written, but Python cannot run it. a.py: '(' was never closed: `x = (1`\n",
+        ),
+        ("%%writefile a.py\nx = 1\n", ""),
+        ("%%writefile a.yaml\nx: [1\n", ""),
+        ("x = 1", ""),
+    ],
+)
+def test_a_syntax_error_in_a_written_file_is_named_at_once(
+    cell: str, printed: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    gap_module._name_syntax_error(SimpleNamespace(info=SimpleNamespace(raw_cell=cell)))
+    assert capsys.readouterr().out == printed

@@ -51,6 +51,18 @@ def test_failed_checks_are_open_and_the_others_folded(shown: list[dict[str, str]
     assert "    expected  a node\n    observed  none\n    next  Start it." in shown[-1]["text/plain"]
 
 
+def test_a_film_is_folded_below_its_check_and_has_an_alternative_text(shown: list[dict[str, str]]) -> None:
+    table = NotebookTable(CHECKS)
+    table.add(CheckVerdict(CHECKS[1].id, "A title", "failed", 0, 2, robot_time=2.0))
+    table.film(CHECKS[1].id, "is being drawn …")
+    assert "<dt>film</dt><dd>is being drawn …</dd>" in shown[-1]["text/html"]
+    table.film(CHECKS[1].id, 'The "robot" falls', b"webp")
+    folded = '<details><summary>Film of these seconds</summary><img src="data:image/webp;base64,d2VicA=="'
+    assert f'{folded} alt="The &#34;robot&#34; falls"></details>' in shown[-1]["text/html"]
+    table.film(CHECKS[1].id, "")
+    assert "film" not in shown[-1]["text/html"].rpartition("</style>")[2]
+
+
 def test_a_lesson_is_a_link_to_its_heading() -> None:
     text = "Read chapters/02_services.ipynb, “Pitfall: no return”."
     href = "../../chapters/02_services.ipynb#Pitfall:-no-return"

@@ -130,7 +130,9 @@ def test_a_drawing_shows_nodes_and_links_and_marks_what_lacks_a_fact() -> None:
     svg = design_svg(design, title="An arm & a camera")
     assert "<title>An arm &amp; a camera</title>" in svg
     assert "camera -&gt; finder: topic sensor_msgs/msg/Image." in svg
-    assert svg.count('stroke="#c0392b"') == 2  # both lines of the last link
+    assert svg.count('stroke="#c0392b"') == 3  # both lines of the last link, and the legend
+    assert ">lacks a fact</text>" in svg
+    assert "lacks a fact" not in design_svg(read_design(WHOLE), title="Nothing lacks")
     root = ET.fromstring(svg)
     nodes_left, links, nodes_right = 3, 3, 3
     assert len(root.findall(BOX)) == 1 + nodes_left + links + nodes_right

@@ -53,7 +53,7 @@ def test_a_recording_spans_the_whole_block(recorded: Kernel) -> None:
 
 def test_its_film_is_drawn_afterwards(recorded: Kernel) -> None:
     html = recorded.run("print(recording.film('fall.webp', camera='side', slow_motion=2).data)")
-    assert "2 times as slow as it was" in html
+    assert "slowed down 2 times" in html
     assert "data:image/webp" in html or "No film: no OpenGL" in html
 
 

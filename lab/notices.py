@@ -1,0 +1,66 @@
+"""Says below a running cell what it waits for, without a line in the cell's output."""
+
+from __future__ import annotations
+
+import re
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import copy_context
+from html import escape
+from typing import Any
+
+from IPython.core.getipython import get_ipython
+from IPython.display import display
+
+DELAY = 0.8  # s; a step that ends sooner needs no notice
+_ROS2 = re.compile(r"(?:^|[\s;&|])(ros2 \w+(?: \w+)?)")
+
+_only_one = threading.Lock()  # of a step and its parts, the step says what goes on
+
+
+@contextmanager
+def notice(text: str) -> Iterator[None]:
+    """Show a text below the cell if the `with` block takes longer than DELAY, and remove it at the end.
+
+    The text is not printed: nothing that reads the cell's output meets it. Outside a notebook nothing is shown.
+    """
+    shell: Any = get_ipython()
+    if not hasattr(shell, "kernel") or not _only_one.acquire(blocking=False):
+        yield
+        return
+    shown: list[Any] = []
+    content = {"text/html": f'<em role="status">{escape(text)}</em>', "text/plain": text}
+    timer = threading.Timer(
+        DELAY,
+        copy_context().run,  # the context knows the cell
+        (lambda: shown.append(display(content, raw=True, display_id=True)),),
+    )
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+        timer.join()
+        _only_one.release()
+        for handle in shown:
+            handle.update({"text/plain": ""}, raw=True)
+
+
+def announce_commands(shell: Any) -> None:
+    """Show a notice while a cell runs a `ros2` command, because a command discovers the graph before it prints."""
+    run: Callable[[str], None] = shell.system
+
+    def run_with_notice(command: str) -> None:
+        if found := _ROS2.search(command):
+            words = f"{found[1]} runs. It first finds the nodes, which takes seconds, on a busy machine up to 20 s."
+            with notice(words):
+                run(command)
+        else:
+            run(command)
+
+    shell.system = run_with_notice
+
+
+if hasattr(get_ipython(), "kernel"):  # in a notebook
+    announce_commands(get_ipython())
