@@ -67,6 +67,9 @@ COMMANDS: dict[str, Command] = {
     ),
     "collect": Command("Read submissions from a platform's download.", FOR_INSTRUCTORS),
     "grade": Command("Grade a batch of submissions.", FOR_INSTRUCTORS),
+    "requests": Command(
+        "Grade the programs of regrade requests again, and draft the replies.", FOR_INSTRUCTORS
+    ),
     "replay": Command("Show a recorded arena: in the web view, as a film, as text."),
     "merge": Command("Merge the parts of a class that were graded separately.", FOR_INSTRUCTORS),
     "export": Command("Write the grades for another platform.", FOR_INSTRUCTORS),

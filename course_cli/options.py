@@ -32,6 +32,15 @@ CourseOption = Annotated[
 ]
 
 
+DatesOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--dates",
+        metavar="FILE",
+        help="due times, late rule and extensions (default: dates.yaml beside the folder, if it exists)",
+    ),
+]
+
 JobsOption = Annotated[
     int, typer.Option(min=1, help="number of arenas that run in parallel; each needs a processor core")
 ]

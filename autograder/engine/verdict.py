@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any, Literal, get_args
 
 CheckStatus = Literal["passed", "failed", "not run", "error", "to mark", "marked"]
@@ -44,11 +44,19 @@ class CheckVerdict:
 
 
 @dataclass(frozen=True)
+class Late:
+    """What late work loses: the points, and a sentence for the student that explains them."""
+
+    points: float
+    reason: str
+
+
+@dataclass(frozen=True)
 class Grade:
     """Every verdict on one submission. One check that could not be judged makes the submission not graded.
 
     `seed` drew the inputs of its scenarios; None for an essay, and in records of an earlier version. `program` is the
-    fingerprint of what was graded; "" where it could not be read.
+    fingerprint of what was graded; "" where it could not be read. `late` is None for work that is not late.
     """
 
     exercise: str
@@ -58,6 +66,11 @@ class Grade:
     reason: str = ""
     seed: int | None = None
     program: str = ""
+    late: Late | None = None
+
+    def with_late(self, late: Late | None) -> Grade:
+        """Return this grade with another deduction for late work."""
+        return replace(self, late=late)
 
     @property
     def status(self) -> GradeStatus:
@@ -75,9 +88,16 @@ class Grade:
         return first.removeprefix("Not graded: ")
 
     @property
-    def score(self) -> float | None:
-        """The points earned; None when not graded, or not marked yet."""
+    def earned(self) -> float | None:
+        """The points of the checks; None when not graded, or not marked yet."""
         return sum(check.points for check in self.checks) if self.status == "graded" else None
+
+    @property
+    def score(self) -> float | None:
+        """The points earned without those that late work loses; None when not graded, or not marked yet."""
+        if self.earned is None or not self.late or not self.late.points:
+            return self.earned
+        return round(max(0.0, self.earned - self.late.points), 2)
 
     @property
     def max_score(self) -> int:
@@ -98,6 +118,8 @@ class Grade:
             "isolation": self.isolation,
             "seed": self.seed,
             "program": self.program,
+            "earned": self.earned,
+            "late": asdict(self.late) if self.late else None,
             "score": self.score,
             "max_score": self.max_score,
             "reason": self.reason,
@@ -116,6 +138,7 @@ class Grade:
             names = ("exercise", "student", "isolation", "reason")
             exercise, student, isolation, reason = (_text(record[name]) for name in names)
             program = _text(record.get("program", ""))
+            late = Late(**record["late"]) if record.get("late") else None
         except (KeyError, TypeError) as error:
             raise ValueError(f"this is no grade: {type(error).__name__}: {error}") from error
         for check in checks:
@@ -123,7 +146,9 @@ class Grade:
         seed = record.get("seed")
         if seed is not None and not isinstance(seed, int):
             raise ValueError(f"a seed is a whole number, not {str(seed)[:100]!r}")
-        return cls(exercise, student, isolation, checks, reason, seed, program)
+        if late and not (_is_number(late.points) and late.points >= 0 and _text(late.reason)):
+            raise ValueError(f"late work cannot lose {late.points!r} points"[:300])
+        return cls(exercise, student, isolation, checks, reason, seed, program, late)
 
 
 def _require_sound(check: CheckVerdict) -> None:

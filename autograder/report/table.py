@@ -112,7 +112,8 @@ def summary(grade: Grade) -> str:
         waiting = sum(verdict.status == "to mark" for verdict in grade.checks)
         return f"to be marked by hand: {waiting} of {len(grade.checks)} criteria"
     label = "" if grade.isolation == "namespaces" else f"  [{grade.isolation}]"
-    return f"{grade.score} of {grade.max_score} points{label}"
+    before = f" ({grade.earned} before the deduction for late work)" if grade.score != grade.earned else ""
+    return f"{grade.score} of {grade.max_score} points{before}{label}"
 
 
 def _points(verdict: CheckVerdict) -> str:

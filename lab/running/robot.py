@@ -37,9 +37,7 @@ def start_robot(scene: str = "flat") -> None:
     if _robot is None or not _robot.is_running:
         ended = _end_robot_of_another_notebook()
         topics.reset_for_scene(scene)
-        rest = (
-            () if OBJECTS[scene] else ("--may-rest",)
-        )  # the cup never lies so still that the robot could rest
+        rest = () if OBJECTS[scene] else ("--may-rest",)  # a cup never lies still enough for a rest
         _robot = Process(["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1", "--scene", scene, *rest])
         announce_robot(domain_id, _robot.pid)
     watch_beside_the_notebook()

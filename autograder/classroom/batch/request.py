@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from autograder.classroom.batch.shards import Shard
+from autograder.classroom.dates import Deadlines
 
 
 class UnusableRequest(ValueError):
@@ -29,6 +30,7 @@ class BatchRequest:
         json_file: a second file for all verdicts.
         watch: keep grading new submissions until Ctrl-C.
         record: keep an MCAP file of each scenario.
+        deadlines: due times and what late work costs; None: nothing is late.
     """
 
     submitted: Path
@@ -44,6 +46,7 @@ class BatchRequest:
     json_file: Path | None = None
     watch: bool = False
     record: bool = False
+    deadlines: Deadlines | None = None
 
     def __post_init__(self) -> None:
         if self.shard and (self.students or self.exercises or self.json_file):

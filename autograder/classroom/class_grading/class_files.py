@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from autograder.classroom.batch.batch_record import BatchRecord, write_batch
 from autograder.classroom.batch.records import GRADES, write_grades
 from autograder.classroom.batch.runner import Graded
 from autograder.classroom.batch.source_files import write_base_code, write_source
+from autograder.classroom.dates import Deadlines
 from autograder.classroom.nbgrader_bridge.course_folder import RELEASE, NbgraderError
 from autograder.classroom.nbgrader_bridge.gradebook import CourseGradebook, Entry
 from autograder.classroom.nbgrader_bridge.rebuild_submission import NoSolutionCell
 from autograder.classroom.pages.drawings import Drawings
 from autograder.classroom.pages.pages import write_class_page, write_student_page, write_submission_pages
 from autograder.engine.exercise import exercises_folder
-from autograder.engine.verdict import Grade
+from autograder.engine.verdict import Grade, Late
 
 LOG = "nbgrader.log"
 
@@ -32,6 +33,7 @@ class ClassFiles:
         record: the present record of the batch.
         json_file: a second file for all verdicts.
         drawn_in: output folders with drawings of failed checks; by default `out`.
+        deadlines: due times and what late work costs; None: nothing is late.
     """
 
     def __init__(
@@ -42,32 +44,52 @@ class ClassFiles:
         *,
         json_file: Path | None = None,
         drawn_in: Sequence[Path] = (),
+        deadlines: Deadlines | None = None,
     ) -> None:
         self.record = record
         self._out = out
         self._grades = {(grade.student, grade.exercise): grade for grade in before}
         self._json_file = json_file
+        self._deadlines = deadlines
+        self._timestamps = {
+            (row.student, row.exercise): row.handed_in for row in (record.rows if record else ())
+        }
         self._drawings = [Drawings(folder) for folder in drawn_in or (out,)]
         self._gradebook: CourseGradebook | None = None
         self._problems: dict[tuple[str, str], Exception] = {}
 
     @property
     def grades(self) -> Sequence[Grade]:
-        """All grades, in order of student and exercise, with the points that a person gave in the gradebook."""
-        return [self._grades[key] for key in sorted(self._grades)]
+        """All grades, in order of student and exercise, with a person's marks and the deductions for late work."""
+        return self._with_late([self._grades[key] for key in sorted(self._grades)])
+
+    @property
+    def deadline_notes(self) -> Sequence[str]:
+        """Sentences on late work for the instructor, such as submissions whose time is unknown."""
+        return self._deadlines.notes(self.grades, self._timestamps) if self._deadlines else []
 
     def add(self, result: Graded) -> None:
         """Enter a result into the gradebook, and write its program and its pages."""
-        grade = self._entered(result)
-        self._grades[grade.student, grade.exercise] = grade
+        work, key = result.work, (result.work.student, result.work.exercise)
+        self._timestamps[key], self._grades[key] = work.timestamp, result.grade
+        self._grades[key] = self._entered(result, self._of_student(work.student)[work.exercise].late)
+        theirs = self._of_student(work.student)
+        grade = theirs[work.exercise]
         write_source(self._out, result)
         write_base_code(self._out, grade.exercise, self._out / RELEASE)
         drawn = {
             check: svgs for one in self._drawings for check, svgs in one.of(grade, result.sources).items()
         }
         write_submission_pages(self._out, grade, drawn)
-        theirs = [each for each in self._grades.values() if each.student == grade.student]
-        write_student_page(self._out, grade.student, theirs)
+        write_student_page(self._out, grade.student, list(theirs.values()))
+
+    def _of_student(self, student: str) -> Mapping[str, Grade]:
+        """Return a student's grades by exercise."""
+        theirs = [grade for grade in self._grades.values() if grade.student == student]
+        return {grade.exercise: grade for grade in self._with_late(theirs)}
+
+    def _with_late(self, grades: Sequence[Grade]) -> Sequence[Grade]:
+        return self._deadlines.applied(grades, self._timestamps) if self._deadlines else grades
 
     def write(self, refused: Sequence[str] = ()) -> Path:
         """Write the files on the whole class and return its page; `refused`: sentences on unreadable folders."""
@@ -92,13 +114,15 @@ class ClassFiles:
             (self._out / LOG).write_text("\n\n".join(logs))
         return [*found.values(), *([f"nbgrader's output is in {self._out / LOG}"] if logs else [])]
 
-    def _entered(self, result: Graded) -> Grade:
-        """Enter a grade into the gradebook; return the grade with the points that a person gave."""
+    def _entered(self, result: Graded, late: Late | None) -> Grade:
+        """Enter a grade and its deduction into the gradebook; return the grade with the points that a person gave."""
         work = result.work
         self._problems.pop((work.student, work.exercise), None)
         try:
             gradebook = self._gradebook = self._gradebook or CourseGradebook(self._out, exercises_folder())
-            gradebook.enter(Entry(result.grade, result.sources, result.problem, work.timestamp, work.secret))
+            lost = late.points if late else 0.0
+            entry = Entry(result.grade, result.sources, result.problem, work.timestamp, work.secret, lost)
+            gradebook.enter(entry)
             return gradebook.as_marked(result.grade)
         except (NbgraderError, NoSolutionCell, OSError) as error:
             self._problems[work.student, work.exercise] = error

@@ -50,7 +50,9 @@ def grade_once(console: Console, request: BatchRequest) -> int:
             write_batch(request.out, record)
             write_shard(request.out, request.shard, batch.seeds, collection.works, results)
         else:
-            files = ClassFiles(request.out, grades, record, json_file=request.json_file)
+            files = ClassFiles(
+                request.out, grades, record, json_file=request.json_file, deadlines=request.deadlines
+            )
             add_all(console, files, results)
             is_entered = print_summary(console, files, request.out, files.write(collection.refused))
     not_graded = print_ungraded(console, collection, results)

@@ -48,6 +48,8 @@ def print_summary(console: Console, files: ClassFiles, out: Path, page: Path) ->
             f"points to {GRADES}",
             style="cyan",
         )
+    for line in files.deadline_notes:
+        console.print(line, style="dim", markup=False, soft_wrap=True)
     console.print(f"read this first: {page}", markup=False, soft_wrap=True)
     console.print(f"{out / GRADES}, {out / 'gradebook.db'}, {out / 'feedback'}/", style="dim", markup=False)
     jupyter = Path(sys.executable).with_name("jupyter")

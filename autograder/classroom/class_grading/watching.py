@@ -48,7 +48,9 @@ class _Watch:
         self._folder = WatchedFolder(batch.request.submitted)
         self._record = batch.record
         self._files = ClassFiles(
-            batch.request.out, batch.before, batch.record, json_file=batch.request.json_file
+            *(batch.request.out, batch.before, batch.record),
+            json_file=batch.request.json_file,
+            deadlines=batch.request.deadlines,
         )
         self._results: dict[tuple[str, str], Graded] = {}
         self._is_written = True  # whether the files on the whole class are up to date

@@ -14,11 +14,12 @@ from autograder.classroom.collect.choice import choose
 from autograder.classroom.collect.download import UnusableDownload, open_download
 from autograder.classroom.collect.handed_in import Assignment, Reading
 from autograder.classroom.collect.placing import Placed, place
+from autograder.classroom.dates import read_deadlines
 from autograder.engine.exercise import UnknownExercise, all_names
 from autograder.engine.hand_in import work_in
 from autograder.engine.submission import UnusableSubmission, read_submission
 from course_cli.ending import COMMAND_FAILED, error_exit
-from course_cli.options import CourseOption
+from course_cli.options import CourseOption, DatesOption
 
 # The reader of each platform's downloads.
 PLATFORMS = {"canvas": canvas, "moodle": moodle, "gradescope": gradescope, "classroom50": classroom50}
@@ -47,10 +48,12 @@ def collect(
             "--overwrite", help="replace submissions that are already in --out, such as earlier hand-ins"
         ),
     ] = False,
+    dates: DatesOption = None,
     course: CourseOption = None,
 ) -> None:
     """Copy submissions from a platform's download to the folders that `course grade` reads."""
     console = Console(highlight=False)
+    deadlines = read_deadlines(dates, out)
     try:
         _require_usable(exercise, assignment)
         wanted = Assignment(exercise, assignment)
@@ -79,6 +82,8 @@ def collect(
             markup=False,
         )
     _print_summary(console, reading, placed, out)
+    for line in deadlines.lateness(choice.timestamps) if deadlines else ():
+        console.print(line, style="yellow", markup=False, soft_wrap=True)
     raise typer.Exit(COMMAND_FAILED if reading.refused or placed.refused else 0)
 
 

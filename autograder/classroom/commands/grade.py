@@ -13,8 +13,9 @@ from autograder.classroom.batch.request import BatchRequest, UnusableRequest
 from autograder.classroom.batch.shards import Shard
 from autograder.classroom.class_grading.once import grade_once
 from autograder.classroom.class_grading.watching import watch_and_grade
+from autograder.classroom.dates import read_deadlines
 from course_cli.ending import COMMAND_FAILED, UNUSABLE, error_exit
-from course_cli.options import CourseOption, JobsOption
+from course_cli.options import CourseOption, DatesOption, JobsOption
 
 
 def grade(
@@ -79,13 +80,15 @@ def grade(
             "--record", help="keep an MCAP file of each scenario in OUT/recordings (`course replay`)"
         ),
     ] = False,
+    dates: DatesOption = None,
     course: CourseOption = None,
 ) -> None:
     """Grade a batch of submissions."""
     console = Console(highlight=False)
     try:
+        folder = _one_folder(submitted, watch)
         request = BatchRequest(
-            submitted=_one_folder(submitted, watch),
+            submitted=folder,
             out=out,
             jobs=jobs,
             resume=resume,
@@ -98,6 +101,7 @@ def grade(
             json_file=json_file,
             watch=watch is not None,
             record=record,
+            deadlines=read_deadlines(dates, folder),
         )
     except ValueError as error:  # a malformed shard, or options that exclude each other
         raise error_exit(console, error, UNUSABLE) from error

@@ -14,9 +14,10 @@ from autograder.classroom.batch.records import GRADES, write_grades
 from autograder.classroom.batch.shards import merge_shards
 from autograder.classroom.class_grading.class_files import ClassFiles
 from autograder.classroom.class_grading.output import add_all, print_summary
+from autograder.classroom.dates import read_deadlines
 from autograder.recording.kept import FOLDER as RECORDINGS
 from course_cli.ending import batch_status
-from course_cli.options import CourseOption
+from course_cli.options import CourseOption, DatesOption
 
 
 def merge(
@@ -24,6 +25,7 @@ def merge(
     out: Annotated[Path, typer.Option(help="folder for grades.json, gradebook.db and feedback/")] = Path(
         "graded"
     ),
+    dates: DatesOption = None,
     course: CourseOption = None,
 ) -> None:
     """Merge the shards of a class into one gradebook."""
@@ -32,7 +34,9 @@ def merge(
     with locked(out):
         grades = [result.grade for result in merged.results]
         write_grades(out / GRADES, grades)
-        files = ClassFiles(out, grades, merged_record(folders), drawn_in=folders)
+        files = ClassFiles(
+            out, grades, merged_record(folders), drawn_in=folders, deadlines=read_deadlines(dates, out)
+        )
         add_all(console, files, merged.results)
         is_entered = print_summary(console, files, out, files.write())
     if recorded := [folder / RECORDINGS for folder in folders if (folder / RECORDINGS).is_dir()]:

@@ -67,7 +67,7 @@ def render(grade: Grade, options: Options) -> str:
     tests += [_test(check, f"H{i}", "hidden") for i, check in enumerate(published.hidden, start=1)]
     return Results(
         score=published.score,
-        output=published.hidden_sum,
+        output="\n".join(filter(None, (published.hidden_sum, published.late))),
         tests=tests,
         extra_data={"isolation": grade.isolation},
     ).text()

@@ -47,6 +47,8 @@ def _fill(suite: Xml.Element, published: Published) -> None:
     properties = Xml.SubElement(suite, "properties")
     for name, value in (("score", published.score), ("max_score", published.max_score)):
         Xml.SubElement(properties, "property", name=name, value=f"{value:g}")
+    if published.late:
+        Xml.SubElement(properties, "property", name="late", value=published.late)
     for check in published.checks:
         case = _case(suite, published.exercise, check.title)
         if check.points < check.max_points:

@@ -175,7 +175,7 @@ def feedback(published: Published) -> str:
     ]
     passed = len(published.checks) - len(lines)
     lines.insert(0, f"{passed} of {len(published.checks)} visible checks passed.")
-    return "<br><br>".join([*lines, *filter(None, [published.hidden_sum])])
+    return "<br><br>".join([*lines, *filter(None, [published.hidden_sum, _escaped(published.late)])])
 
 
 def _escaped(text: str) -> str:

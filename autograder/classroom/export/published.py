@@ -36,6 +36,7 @@ class Published:
     Attributes:
         checks: the checks to show in full.
         hidden: the checks of which students see only the total points.
+        late: the sentence on a late submission; "" if it was not late.
     """
 
     student: str
@@ -44,6 +45,7 @@ class Published:
     max_score: float
     checks: Sequence[CheckVerdict]
     hidden: Sequence[CheckVerdict]
+    late: str = ""
 
     @property
     def hidden_points(self) -> float:
@@ -74,6 +76,7 @@ def publish(grade: Grade, hidden: HiddenPolicy) -> Published:
         number(grade.max_score),
         [check for check in grade.checks if check not in hidden_checks],
         hidden_checks,
+        grade.late.reason if grade.late else "",
     )
 
 

@@ -39,6 +39,7 @@ class Entry:
     problem: str = ""
     timestamp: str = ""  # when the submission was handed in, as nbgrader writes it
     secret: str = ""  # identifies the submission when nbgrader's exchange returns the feedback
+    late_points: float = 0.0  # deducted for late work: nbgrader's late submission penalty
 
 
 class CourseGradebook:
@@ -70,11 +71,12 @@ class CourseGradebook:
         submission = self._submission(entry)
         is_entered = not self._is_new and self._holds(grade, submission)
         if grade.status == "to mark":
-            return self._leave_to_a_person(grade, submission, page, is_entered)
+            return self._leave_to_a_person(entry, submission, page, is_entered)
+        is_entered = is_entered and self._penalty(grade) == entry.late_points
         if is_entered and _is_whole(page):
             return page
         page.unlink(missing_ok=True)  # an earlier page would show a grade that is not completely entered
-        self._autograde(grade, submission)
+        self._autograde(entry, submission)
         call(self._course.generate_feedback, grade.exercise, grade.student)
         return page
 
@@ -86,24 +88,42 @@ class CourseGradebook:
             return with_marks(gradebook, grade)
 
     def _leave_to_a_person(
-        self, grade: Grade, submission: dict[str, str], page: Path, is_entered: bool
+        self, entry: Entry, submission: dict[str, str], page: Path, is_entered: bool
     ) -> Path | None:
         """Enter an unmarked essay; make its feedback page when a person has marked every criterion."""
+        grade = entry.grade
         page.unlink(missing_ok=True)
         if not (is_entered and self._autograded(grade).exists()):
             shutil.rmtree(self._autograded(grade), ignore_errors=True)
-            self._autograde(grade, submission)
+            self._autograde(entry, submission)
             with self._course.gradebook as gradebook:
                 ask_again(gradebook, grade)
+        else:
+            self._deduct(entry)
         if self.as_marked(grade).status != "graded":
             return None
         call(self._course.generate_feedback, grade.exercise, grade.student)
         return page
 
-    def _autograde(self, grade: Grade, submission: dict[str, str]) -> None:
+    def _autograde(self, entry: Entry, submission: dict[str, str]) -> None:
+        grade = entry.grade
         record(self._folder, grade)
         self._submit(grade, submission)
         call(self._course.autograde, grade.exercise, grade.student)
+        self._deduct(entry)
+
+    def _deduct(self, entry: Entry) -> None:
+        """Set nbgrader's late submission penalty, which its autograde has removed."""
+        grade = entry.grade
+        with self._course.gradebook as gradebook:
+            notebook = gradebook.find_submission_notebook(grade.exercise, grade.exercise, grade.student)
+            notebook.late_submission_penalty = entry.late_points
+            gradebook.db.commit()
+
+    def _penalty(self, grade: Grade) -> float:
+        with self._course.gradebook as gradebook:
+            notebook = gradebook.find_submission_notebook(grade.exercise, grade.exercise, grade.student)
+            return float(notebook.late_submission_penalty or 0.0)
 
     def _assign(self, exercise: str) -> None:
         """Create the exercise's assignment in the gradebook, with the present points of its checks or criteria."""

@@ -1,0 +1,289 @@
+"""Students' regrade requests: reads them, keeps their state in a table, and collects the evidence for the answer."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import astuple, dataclass, fields, replace
+from pathlib import Path
+
+from rich.console import Console
+
+from autograder.atomic_file import write_atomically
+from autograder.classroom.batch.records import GRADES, read_grades
+from autograder.classroom.batch.request import BatchRequest
+from autograder.classroom.batch.source_files import SOURCES
+from autograder.classroom.class_grading.once import grade_once
+from autograder.classroom.export.tables import Table, csv_text, read_table, text_cell
+from autograder.classroom.nbgrader_bridge.generated_cells import HIDDEN, cell_names
+from autograder.classroom.pages.pages import FOR_INSTRUCTOR, FOR_STUDENTS, student_view
+from autograder.engine.submission import Submission
+from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.recording.kept import FOLDER as RECORDINGS
+from ros_runtime.course_error import CourseError
+
+TABLE = "requests.csv"
+STATES = ("open", "answered", "changed", "refused")
+MAX_FORM_BYTES = 100_000  # of a student's form
+_FORMS = (".md", ".txt")
+_FIELD = re.compile(r"\W*(student|exercise|check|why)\W*:[* ]*(.*)", re.IGNORECASE)
+
+
+class UnusableRequests(CourseError):
+    """The requests cannot be read; the message names the file, and what is expected."""
+
+
+@dataclass(frozen=True)
+class RegradeRequest:
+    """One request, as a row of requests.csv.
+
+    Attributes:
+        check: the id, or the title, of a check; students see hidden checks as "Hidden check 3".
+        state: "open", or the decision that a person has written: "answered", "changed" or "refused".
+        by: the person who decided.
+        second_run: the result of grading the same program again with the same seed; "" before it has run.
+    """
+
+    number: int
+    student: str
+    exercise: str
+    check: str
+    why: str
+    state: str = "open"
+    by: str = ""
+    second_run: str = ""
+
+    @property
+    def content(self) -> tuple[str, ...]:
+        """What the student asked; two requests with the same content are one."""
+        return (self.student, self.exercise, self.check, self.why)
+
+
+_HEADING = [field.name for field in fields(RegradeRequest)]
+
+
+def read_state(folder: Path) -> list[RegradeRequest]:
+    """Read requests.csv, in which a person writes the decisions.
+
+    Raises:
+        UnusableRequests: a row has no number, or another state than STATES.
+        UnusableBatch: the file is not a table.
+    """
+    path = folder / TABLE
+    if not path.exists():
+        return []
+    found = []
+    for row in _columns(read_table(path), path, _HEADING):
+        if not row["number"].isdigit() or row["state"] not in STATES:
+            raise UnusableRequests(
+                f"{path}: {row['number']!r}, {row['state']!r}: expected a number, and one of the states "
+                f"{', '.join(STATES)}"
+            )
+        found.append(RegradeRequest(**(row | {"number": int(row["number"])})))  # type: ignore[arg-type]
+    return found
+
+
+def write_state(folder: Path, requests: Sequence[RegradeRequest]) -> None:
+    """Write requests.csv."""
+    rows = [[text_cell(str(cell)) for cell in astuple(request)] for request in requests]
+    write_atomically(folder / TABLE, csv_text(_HEADING, rows))
+
+
+def new_requests(inbox: Path, known: Sequence[RegradeRequest]) -> list[RegradeRequest]:
+    """Read the forms and tables in a folder, or one table; return the requests that are not known yet.
+
+    Raises:
+        UnusableRequests: a form has no student, exercise or check.
+        UnusableBatch: a table cannot be read.
+    """
+    paths = sorted(inbox.iterdir()) if inbox.is_dir() else [inbox]
+    contents = {request.content for request in known}
+    number = max((request.number for request in known), default=0)
+    found: list[RegradeRequest] = []
+    for path in paths:
+        if path.suffix not in (*_FORMS, ".csv") or path.is_symlink() or path.name == TABLE:
+            continue
+        for asked in _rows_of(path) if path.suffix == ".csv" else [_form(path)]:
+            request = RegradeRequest(number + 1, **asked)
+            if request.content not in contents:
+                contents.add(request.content)
+                found.append(request)
+                number += 1
+    return found
+
+
+def _rows_of(path: Path) -> Iterator[dict[str, str]]:
+    return _columns(read_table(path), path, ["student", "exercise", "check", "why"])
+
+
+def _columns(table: Table, path: Path, names: Sequence[str]) -> Iterator[dict[str, str]]:
+    where = {name: table.index(name) for name in names}
+    if missing := [name for name, index in where.items() if index is None]:
+        raise UnusableRequests(
+            f"{path} has no column {missing[0]!r}; expected {', '.join(names)}, found {', '.join(table.heading)}"[
+                :500
+            ]
+        )
+    for row in table.rows:
+        yield {
+            name: row[index].strip().removeprefix("'") for name, index in where.items() if index is not None
+        }
+
+
+def _form(path: Path) -> dict[str, str]:
+    """Read a form with the lines student:, exercise:, check: and why:; the reason may have several lines."""
+    asked: dict[str, list[str]] = {}
+    lines: list[str] = []
+    with path.open(encoding="utf-8", errors="replace") as file:
+        text = file.read(MAX_FORM_BYTES)
+    for line in text.splitlines():
+        if (match := _FIELD.fullmatch(line)) and (name := match[1].lower()) not in asked:
+            lines = asked.setdefault(name, [match[2].strip()])
+        else:
+            lines.append(line.strip())
+    if missing := [name for name in ("student", "exercise", "check") if not asked.get(name, [""])[0]]:
+        raise UnusableRequests(
+            f"{path} has no line {missing[0]!r}: expected student:, exercise:, check: and why:"
+        )
+    return {
+        name: " ".join(filter(None, asked.get(name, []))) for name in ("student", "exercise", "check", "why")
+    }
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """A request, the grade that it is about, and the same program graded again with the same seed."""
+
+    request: RegradeRequest
+    before: Grade
+    again: Grade
+
+    @property
+    def differences(self) -> Sequence[str]:
+        """A line for each check whose verdict is another one; empty if both runs agree."""
+        old = {check.id: check for check in self.before.checks}
+        return [
+            f"{check.id}: {was.status} before, {check.status} now"
+            for check in self.again.checks
+            if (was := old.get(check.id)) and was.status != check.status
+        ]
+
+    @property
+    def result(self) -> str:
+        """The result of the second run, for the table."""
+        if "not graded" in (self.before.status, self.again.status):
+            return f"{_score(self.before)} before, {_score(self.again)} now"
+        return (
+            f"DIFFERS: {'; '.join(self.differences)}" if self.differences else f"same: {_score(self.again)}"
+        )
+
+    def reply(self) -> str:
+        """Return the draft of the reply as Markdown, with the evidence for the instructor below it."""
+        request, check = self.request, find_check(self.again, self.request.check)
+        seen = next(
+            (each for each in student_view(self.again).checks if check and self._is(each, check)), None
+        )
+        again = f"{request.number}/graded"
+        lines = [
+            f"# Request {request.number}: {request.student}, {request.exercise}, {request.check}",
+            f"The student wrote: “{request.why}”" if request.why else "The student gave no reason.",
+            "## Draft of the reply",
+            f"I graded the program that you handed in again (fingerprint {self.again.program}), with the same inputs: "
+            f"{_score(self.again)}, {'as' if self.again.score == self.before.score else _score(self.before)} before.",
+            *(_in_words(seen) if seen else ["No single check is concerned, see the page of your exercise."]),
+            "## For you",
+            f"- second run: {self.result}",
+            *(
+                ["- **A grade that differs between two runs is a fault of the grader: please report it.**"]
+                * bool(self.differences)
+            ),
+            f"- all verdicts: {again}/{FOR_INSTRUCTOR}/{request.student}/{request.exercise}.html; the student's page: "
+            f"{again}/{FOR_STUDENTS}/{request.student}/{request.exercise}.html",
+            f"- recordings: {again}/{RECORDINGS}/{request.student}/{request.exercise}/; a film of one: ./course replay "
+            f"FILE --film film.webp{_around(check)}",
+            f"- then write the state ({', '.join(STATES[1:])}) and your name to {TABLE}. No command changes the grade: "
+            "to change points, use Formgrader.",
+        ]
+        return "\n\n".join(lines) + "\n"
+
+    def _is(self, seen: CheckVerdict, check: CheckVerdict) -> bool:
+        return seen.id == cell_names(self.again.checks)[check.id]
+
+
+def find_check(grade: Grade, asked: str) -> CheckVerdict | None:
+    """Return the check that a student means: its id, its title, or "Hidden check 3"; None if there is none."""
+    wanted = " ".join(asked.lower().split())
+    for check in grade.checks:
+        shown = cell_names(grade.checks)[check.id]
+        if wanted in (check.id, check.title.lower(), shown, shown.replace(HIDDEN, "hidden check ")):
+            return check
+    return None
+
+
+def collect_evidence(request: RegradeRequest, graded: Path, folder: Path, jobs: int) -> Evidence:
+    """Grade the submission of a request again, as it was graded, with recordings, and write the draft of the reply.
+
+    Raises:
+        UnusableRequests: there is no such grade, program or check, or the program has changed since.
+    """
+    before = next(
+        (
+            grade
+            for grade in read_grades(graded / GRADES)
+            if (grade.student, grade.exercise) == (request.student, request.exercise)
+        ),
+        None,
+    )
+    if before is None:
+        raise UnusableRequests(f"{graded / GRADES} has no grade of {request.student} for {request.exercise}")
+    if before.checks and find_check(before, request.check) is None:
+        titles = "; ".join(check.title for check in student_view(before).checks)
+        raise UnusableRequests(f"{request.exercise} has no check {request.check!r}; it has: {titles}"[:1000])
+    program = graded / SOURCES / request.exercise / request.student
+    sources = _texts(program)
+    if (
+        before.program
+        and Submission(request.exercise, request.student, sources).fingerprint != before.program
+    ):
+        raise UnusableRequests(f"{program} is not the program that was graded (fingerprint {before.program})")
+    place, out = folder / str(request.number), folder / str(request.number) / "graded"
+    for name, text in sources.items():
+        write_atomically(place / "submitted" / request.student / request.exercise / name, text)
+    grade_once(
+        Console(quiet=True),
+        BatchRequest(submitted=place / "submitted", out=out, jobs=jobs, seed=before.seed, record=True),
+    )
+    evidence = Evidence(request, before, read_grades(out / GRADES)[0])
+    write_atomically(place / "reply.md", evidence.reply())
+    return evidence
+
+
+def answered(request: RegradeRequest, evidence: Evidence) -> RegradeRequest:
+    """Return the request with the result of the second run."""
+    return replace(request, second_run=evidence.result)
+
+
+def _texts(folder: Path) -> Mapping[str, str]:
+    paths = sorted(folder.glob("*")) if folder.is_dir() else []
+    if not paths:
+        raise UnusableRequests(f"{folder} has no program; expected the sources/ of `course grade`")
+    return {path.name: path.read_text(encoding="utf-8", errors="surrogateescape") for path in paths}
+
+
+def _score(grade: Grade) -> str:
+    return "not graded" if grade.score is None else f"{grade.score:g} of {grade.max_score} points"
+
+
+def _around(check: CheckVerdict | None) -> str:
+    return f" --around {check.id}" if check and not check.hidden else ""
+
+
+def _in_words(check: CheckVerdict) -> Sequence[str]:
+    """Return paragraphs on a verdict as the student may read it."""
+    return [
+        f"The check “{check.title}” {check.status}: {check.points:g} of {check.max_points} points.",
+        *([f"It judges {check.promise}."] if check.promise else []),
+        *([f"Expected: {check.expected}"] if check.expected else []),
+        *([f"Observed: {check.observed}"] if check.observed else []),
+        *([f"Next: {check.help}"] if check.help else []),
+    ]
