@@ -7,6 +7,10 @@ UNUSABLE = 2  # exit status: the command's arguments or files are unusable
 
 
 class CourseError(Exception):
-    """The message says what was seen, what was expected and what to do next; `course` prints no traceback."""
+    """The message says what was seen, what was expected and what to do next; `course` and Jupyter show no traceback."""
 
     exit_status = UNUSABLE
+
+    def _render_traceback_(self) -> list[str]:
+        """Jupyter shows this instead of a traceback."""
+        return [f"{type(self).__name__}: {self}"]

@@ -31,10 +31,6 @@ class UnusableSubmission(CourseError):
         # the message may quote an unpaired surrogate
         super().__init__(message.encode(errors="backslashreplace").decode())
 
-    def _render_traceback_(self) -> list[str]:
-        """Jupyter shows this instead of a traceback."""
-        return [f"{type(self).__name__}: {self}"]
-
 
 @dataclass(frozen=True)
 class Submission:
