@@ -14,7 +14,7 @@ from robot_sim.arms.joint_brakes import BRAKE_TORQUE, JointBrakes
 from robot_sim.arms.joint_trajectory import HOLD, JointTrajectory
 from robot_sim.arms.upper_body import UpperBody
 from robot_sim.battery import Battery
-from robot_sim.model.build import build_model
+from robot_sim.model.build import TIMESTEP, build_model
 from robot_sim.model.dimensions import dimensions_of
 from robot_sim.model.joint_names import ACTUATED_JOINTS
 from robot_sim.model.posture import take_stance
@@ -48,8 +48,7 @@ class Humanoid:
     Args:
         scene: "flat", "table" (with a cup in front of the robot) or "stand" (which holds it, motors on or off).
         seed: of the sensors' errors.
-        timestep: of physics and controller, s.
-        floor: what it walks on; a level plane unless given.
+        shape: called with the model before it is compiled, such as to tilt the floor.
 
     Raises:
         ValueError: the scene is not known.
@@ -71,13 +70,12 @@ class Humanoid:
         scene: str = "flat",
         *,
         seed: int = 0,
-        timestep: float = 0.005,
         shape: Callable[[mujoco.MjSpec], object] = lambda spec: None,
     ) -> None:
         self.scene = scene
-        self.model = build_model(scene, timestep=timestep, shape=shape)
+        self.model = build_model(scene, shape=shape)
         self.data = mujoco.MjData(self.model)
-        self.timestep = timestep
+        self.timestep = TIMESTEP
         self.seed = seed
         self._parameters = WalkerParameters(dimensions_of(self.model))
         self._trunk = trunk_of(self.model)
@@ -86,7 +84,7 @@ class Humanoid:
         self._joint_positions = np.array([joint.qposadr[0] for joint in joints])
         self._joint_velocities = np.array([joint.dofadr[0] for joint in joints])
         self._torso_rotation = self.data.xmat[self.model.body("torso").id]
-        self._rest = Rest(self.data, timestep)
+        self._rest = Rest(self.data, TIMESTEP)
         self.reset()
 
     def reset(self, x: float = 0.0, y: float = 0.0, yaw: float = 0.0, *, height: float | None = None) -> None:

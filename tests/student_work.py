@@ -1,5 +1,7 @@
 """The work of a student that is one file."""
 
+from __future__ import annotations
+
 from pathlib import Path, PurePath
 
 from autograder.classroom.batch.collection import Work

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import signal
 import sys
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import rclpy
@@ -27,15 +26,9 @@ CROUCH = 0.45  # m, height of the pelvis
 LONGEST_SETTLING = 10.0  # s, simulated; limit for simulating a robot that may rest until it rests
 
 
-def build_humanoid(options: RobotOptions, built: Humanoid | None = None) -> Humanoid:
-    """Reset `built` for these options if it has their scene, else build another humanoid.
-
-    After a reset a humanoid behaves bit for bit like a new one, and a reset takes a tenth of the time. A humanoid that
-    may rest is simulated until it rests.
-    """
-    if built is None or built.scene != options.scene:
-        built = Humanoid(options.scene, seed=options.seed)
-    built.seed = options.seed
+def build_humanoid(options: RobotOptions) -> Humanoid:
+    """Build a humanoid for these options; one that may rest is simulated until it rests."""
+    built = Humanoid(options.scene, seed=options.seed)
     built.may_rest = options.may_rest
     built.reset(height=CROUCH if options.crouch else None)
     while built.may_rest and not built.is_resting and built.time < LONGEST_SETTLING:
@@ -43,12 +36,8 @@ def build_humanoid(options: RobotOptions, built: Humanoid | None = None) -> Huma
     return built
 
 
-def serve_robot(
-    options: RobotOptions,
-    humanoid: Humanoid | None = None,
-    is_running: Callable[[], bool] = lambda: True,
-) -> None:
-    """Run the robot until SIGINT, SIGTERM, or until `is_running` returns False; call it in the main thread.
+def serve_robot(options: RobotOptions, humanoid: Humanoid | None = None) -> None:
+    """Run the robot until SIGINT or SIGTERM; call it in the main thread.
 
     Neither this process nor one from which it was forked may have initialized ROS before: the middleware's threads
     do not survive a fork.
@@ -56,7 +45,6 @@ def serve_robot(
     Args:
         options: how to run the robot.
         humanoid: the result of `build_humanoid` for these options; built here unless given.
-        is_running: called in every cycle; False ends the robot.
     """
     signalled = False
 
@@ -65,7 +53,7 @@ def serve_robot(
         signalled = True
 
     def should_run() -> bool:
-        return not signalled and is_running()
+        return not signalled
 
     signal.signal(signal.SIGINT, stop)
     signal.signal(signal.SIGTERM, stop)
