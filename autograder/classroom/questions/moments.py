@@ -59,15 +59,6 @@ def _cancel(
     if any(begun - ALONE < one.sent.t < over for one in run.goals if one is not goal):
         return None
     found = {what: _only(reported, begun, over, what) for what in _OF_A_CANCEL}
-    if not (end := found["canceled"]):
-        return None
-    parts = []
-    for what, mark in found.items():
-        if mark:
-            why = _why_not_earlier(program, mark.node) if what == SEEN else ""
-            asked = f"{_OF_A_CANCEL[what]}{' Why did it not notice it earlier?' if why else ''}"
-            key = f"{program.quoted(mark.line)}, {mark.t - begun:.2f} s after the request. {why}"
-            parts.append(Part(asked, key.strip()))
     later = [one.sent.t for one in run.goals if one.sent.t > over]
     robot = between(run.ground_truth, begun, min(over + STANDING_TIME, *later, run.end))
     moving = [one.t for one in robot if one.speed > STILL]
@@ -75,6 +66,15 @@ def _cancel(
     walking = f", while the robot moved at {robot[0].speed:.2f} m/s" if moved else ""
     stands = moved and robot[-1].t - moving[-1] > STILL_TIME
     stood = f"; the robot stood (slower than {STILL:g} m/s) from {moving[-1]:.1f} s on" if stands else ""
+    if not (end := found["canceled"]):
+        return None
+    parts = []
+    for what, mark in found.items():
+        if mark and (moved or what != STOPS):
+            why = _why_not_earlier(program, mark.node) if what == SEEN else ""
+            asked = f"{_OF_A_CANCEL[what]}{' Why did it not notice it earlier?' if why else ''}"
+            key = f"{program.quoted(mark.line)}, {mark.t - begun:.2f} s after the request. {why}"
+            parts.append(Part(asked, key.strip()))
     story = f"In a run of your program a client requested at {begun:.1f} s to cancel its goal{walking}. The client"
     return Question("moment", end.line, f"{story} received CANCELED at {over:.1f} s{stood}.", tuple(parts))
 
@@ -118,7 +118,7 @@ def _answer(program: StudentProgram, run: Transcript, call: Call, reported: list
     name, mark = found[0]
     asked = f"Which line of your program gave `{name}` its value in this answer?"
     parts = (Part(asked, f"{program.quoted(mark.line)}."), *_why(program, mark.node))
-    request = shown_fields(call.request, *call.request.get_fields_and_field_types())[:LONGEST_TEXT]
+    request = shown_fields(call.request, *_simple(call.request))[:LONGEST_TEXT]
     story = f"In a run of your program a client called {call.service} at {begun:.1f} s{request and f' with {request}'}."
     answer = shown_fields(response, *_simple(response))[:LONGEST_TEXT]
     return Question("moment", mark.line, f"{story} Your program answered {answer}.", parts)
@@ -126,10 +126,9 @@ def _answer(program: StudentProgram, run: Transcript, call: Call, reported: list
 
 def _why_not_earlier(program: StudentProgram, node: ast.expr) -> str:
     """Say what decides when an expression is evaluated again; "" if the text does not show it."""
-    function, loop = program.function(node), program.loop(node)
-    kind = program.kinds.get(function, "") if function else ""
-    if function and kind in ("subscription", "timer"):
-        return f"It is in {function.name}, which runs only whenever {_RUNS_WHENEVER[kind]}."
+    (name, kind), loop = program.runs_for(node), program.loop(node)
+    if kind in ("subscription", "timer"):
+        return f"It runs for {name}, so only whenever {_RUNS_WHENEVER[kind]}."
     waits = [one for one in program.waits_in(loop) if program.loop(one) is loop] if loop else []
     place = f"the loop waits in {program.quoted(waits[0].lineno)}" if waits else ""
     return f"It runs once in each round of a loop, and {place}." if waits else ""
@@ -152,9 +151,7 @@ def _why(program: StudentProgram, node: ast.expr) -> list[Part]:
 
 
 def _where_and_when(program: StudentProgram, statement: ast.stmt) -> str:
-    function = program.function(statement)
-    kind = program.kinds.get(function, "") if function else ""
-    when = _RUNS_WHENEVER.get(kind, "it is called")
+    when = _RUNS_WHENEVER.get(program.runs_for(statement)[1], "it is called")
     return f"{program.quoted(statement.lineno)}, in {program.function_name(statement)}, which runs whenever {when}"
 
 
@@ -165,6 +162,6 @@ def _only(reported: list[Mark], begun: float, over: float, what: str) -> Mark | 
 
 
 def _simple(message: Any) -> list[str]:
-    """Return the fields of a message that hold a truth value, a number or a text."""
-    kinds = (bool, int, float, str)
+    """Return the fields of a message that hold a truth value, a number, a text or a list."""
+    kinds = (bool, int, float, str, list)
     return [one for one in message.get_fields_and_field_types() if isinstance(getattr(message, one), kinds)]

@@ -5,10 +5,13 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from importlib.util import find_spec
+from pathlib import Path
 
 from autograder.classroom.audit.generated.program import Edits, Named, Program, callbacks, last_name
 
 WAITS = ("sleep", "wait", "wait_for")  # names of calls that keep the thread
+MOST_LINES = 2000  # of a program that is read, so that no text keeps the command busy for hours
 LONGEST_QUOTE = 100  # characters of a line of code
 _KINDS = ("subscription", "service", "timer", "feedback", "goal", "cancel")
 # Further callbacks of an ActionServer: the keyword, and the position among its arguments.
@@ -25,12 +28,15 @@ class StudentProgram(Program):
 
     def __init__(self, text: str) -> None:
         """Raises `UnreadableProgram`: whatever a student's text can cause is caught here."""
+        self.lines = _NEW_LINE.split(text)
+        if len(self.lines) > MOST_LINES:
+            raise UnreadableProgram(f"it has {len(self.lines)} lines; at most {MOST_LINES} are read")
         try:
+            _require_interfaces(ast.parse(text))
             super().__init__(text)
             ast.unparse(self.tree)
         except Exception as error:
             raise UnreadableProgram(f"{type(error).__name__}: {error}") from error
-        self.lines = _NEW_LINE.split(text)
         self.named = [one for one in self.every(ast.stmt) if isinstance(one, Named)]
         self.kinds: dict[Named, str] = {one: kind for kind in _KINDS for one in callbacks(self, kind)}
         for call in self.every(ast.Call):
@@ -53,14 +59,24 @@ class StudentProgram(Program):
         """Return the innermost named function around a node."""
         return next((one for one in self.functions(node) if isinstance(one, Named)), None)
 
+    def reached(self, function: Named) -> list[Named]:
+        """Return a function and all functions of the program that it reaches by calls."""
+        by_name = {one.name: one for one in self.named}
+        found = [function]
+        for one in found:  # the loop appends to this list
+            called = (by_name.get(last_name(call)) for call in self.every(ast.Call, one))
+            found += dict.fromkeys(each for each in called if each and each not in found)
+        return found
+
+    def runs_for(self, node: ast.AST) -> tuple[str, str]:
+        """Return the name and the kind of the only callback that reaches the function around a node; else "", ""."""
+        function = self.function(node)
+        found = [(one.name, kind) for one, kind in self.kinds.items() if function in self.reached(one)]
+        return found[0] if len(found) == 1 else ("", "")
+
     def waits(self, function: Named) -> list[ast.Call | ast.Await]:
         """Return where a function, and those that it calls, keep the thread for a time, or give it back by `await`."""
-        by_name = {one.name: one for one in self.named}
-        reached = [function]
-        for one in reached:  # the loop appends to this list
-            called = (by_name.get(last_name(call)) for call in self.every(ast.Call, one))
-            reached += dict.fromkeys(each for each in called if each and each not in reached)
-        return [wait for one in reached for wait in self.waits_in(one)]
+        return [wait for one in self.reached(function) for wait in self.waits_in(one)]
 
     def waits_in(self, node: ast.AST) -> Iterator[ast.Call | ast.Await]:
         """Yield the waits inside one node."""
@@ -131,3 +147,15 @@ class StudentProgram(Program):
         except SyntaxError:
             return None
         return text if is_same else None
+
+
+def _require_interfaces(tree: ast.Module) -> None:
+    """Require that a program imports its interfaces from packages of interfaces: `Program` imports these, too."""
+    for one in ast.walk(tree):
+        package, _, kind = (getattr(one, "module", "") or "").rpartition(".")
+        if isinstance(one, ast.ImportFrom) and kind in ("msg", "srv", "action"):
+            found = find_spec(package) if package.isidentifier() else None
+            if not any(
+                (Path(place) / kind).is_dir() for place in (found and found.submodule_search_locations) or ()
+            ):
+                raise ImportError(f"there is no package of interfaces {package!r}")

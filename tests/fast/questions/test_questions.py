@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 import csv
 import io
+import sys
 from dataclasses import replace
 
 import pytest
@@ -182,6 +184,12 @@ def test_key_of_a_fall_names_the_condition_and_the_callback_that_stores_what_it_
     assert "in on_state, which runs whenever a message of its topic arrives" in stored
 
 
+def test_a_line_reached_from_one_callback_runs_for_that_callback():
+    program = StudentProgram(known("cancellable_walk", "abort_on_acceptance"))
+    noticed = next(one for one in program.every(ast.Assign) if "canceling = " in ast.unparse(one))
+    assert program.runs_for(noticed) == ("on_odom", "subscription")
+
+
 # -- changes
 
 
@@ -226,10 +234,18 @@ def test_nothing_is_asked_about_an_executor_that_is_not_clear():
     assert not list(executor_changes(StudentProgram(two)))
 
 
-@pytest.mark.parametrize("text", ["def (", "from no_such_package.msg import Thing", "x = " + "(" * 5000])
+@pytest.mark.parametrize(
+    "text", ["def (", "from no_such_package.msg import Thing", "x = " + "(" * 5000, "x = 1\n" * 3000]
+)
 def test_a_program_that_cannot_be_read_is_said_so(text):
     with pytest.raises(UnreadableProgram):
         StudentProgram(text)
+
+
+def test_a_students_import_imports_nothing_but_interfaces():
+    with pytest.raises(UnreadableProgram, match="no package of interfaces 'antigravity'"):
+        StudentProgram("from antigravity.msg import Thing")
+    assert "antigravity" not in sys.modules
 
 
 # -- the choice for a student
