@@ -147,7 +147,7 @@ def _sleeps_instead(program: StudentProgram, spin: ast.Call) -> Iterator[Change]
                     f"Your node has one thread. Why does {other.name} (line {other.lineno}) go on while "
                     f"{program.function_name(wait)} waits in {program.quoted(wait.lineno)}?"
                 )
-                why = f"time.sleep keeps the only thread ({program.quoted(spin.lineno)}): no other callback runs."
+                why = f"The only thread ({program.quoted(spin.lineno)}) sleeps, and meanwhile no other callback runs."
                 edits: Edits = {statement: f"{_import_time(program)}time.sleep({seconds})"}
                 first = (Part(asked, _AWAIT_GIVES_BACK),)
                 yield from _change(program, "executor", "sleeps_instead", edits, first=first, why=why)
@@ -155,13 +155,13 @@ def _sleeps_instead(program: StudentProgram, spin: ast.Call) -> Iterator[Change]
 
 def _sleeps_first(program: StudentProgram, spin: ast.Call) -> Iterator[Change]:
     """A callback for messages sleeps, and the callbacks for requests and goals wait for the one thread."""
-    others = " and ".join(one.name for one in program.callbacks("service", "goal", "execute"))
+    others = ", ".join(one.name for one in program.callbacks("service", "goal", "execute"))
     for callback in program.callbacks("subscription", "timer") if others else ():
         first = callback.body[1 if ast.get_docstring(callback) and len(callback.body) > 1 else 0]
         if isinstance(first, ast.Assign | ast.Expr):
             why = (
-                f"One thread runs all callbacks ({program.quoted(spin.lineno)}): while {callback.name} sleeps, "
-                f"{others} cannot run, although they do not sleep, and what {callback.name} stores is late."
+                f"One thread runs all callbacks ({program.quoted(spin.lineno)}): while {callback.name} sleeps, no "
+                f"other runs ({others}), and what {callback.name} stores is late."
             )
             edits: Edits = {first: f"{_import_time(program)}time.sleep({SLEEP_TIME}); {ast.unparse(first)}"}
             yield from _change(program, "executor", "sleeps_first", edits, why=why)

@@ -38,7 +38,10 @@ class StudentProgram(Program):
         except Exception as error:
             raise UnreadableProgram(f"{type(error).__name__}: {error}") from error
         self.named = [one for one in self.every(ast.stmt) if isinstance(one, Named)]
-        self.kinds: dict[Named, str] = {one: kind for kind in _KINDS for one in callbacks(self, kind)}
+        registered = {one: kind for kind in _KINDS for one in callbacks(self, kind)}
+        self.kinds: dict[Named, str] = {
+            one: kind for one, kind in registered.items() if not self._makes_callbacks(one)
+        }
         for call in self.every(ast.Call):
             for kind, (keyword, place) in (
                 _OF_ACTION_SERVERS.items() if last_name(call) == "ActionServer" else ()
@@ -50,6 +53,12 @@ class StudentProgram(Program):
         """Return a line as a question quotes it: 'line 41, `goal_handle.canceled()`'."""
         code = self.lines[line - 1].strip()
         return f"line {line}, `{code if len(code) <= LONGEST_QUOTE else code[:LONGEST_QUOTE] + '…'}`"
+
+    def _makes_callbacks(self, function: Named) -> bool:
+        """Whether a function returns a function, so that not itself but what it returns is the callback."""
+        inner = {one.name for one in self.named if self.function(one) is function}
+        returned = [one.value for one in self.every(ast.Return, function)]
+        return any(isinstance(one, ast.Lambda) or getattr(one, "id", "") in inner for one in returned)
 
     def callbacks(self, *kinds: str) -> list[Named]:
         """Return the callbacks of these kinds."""

@@ -16,7 +16,7 @@ from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.commands import questions as command
 from autograder.classroom.questions import making
-from autograder.classroom.questions.changes import changes, executor_changes
+from autograder.classroom.questions.changes import Change, changes, executor_changes
 from autograder.classroom.questions.making import Maker
 from autograder.classroom.questions.moments import moments
 from autograder.classroom.questions.pages import EXAMINER, TABLE, write_pages
@@ -77,6 +77,11 @@ def known(exercise: str, name: str) -> str:
 @pytest.fixture(scope="module")
 def walker() -> StudentProgram:
     return StudentProgram(known("cancellable_walk", "threads_and_sleep"))
+
+
+@pytest.fixture(scope="module")
+def made(walker) -> list[Change]:
+    return list(changes(walker))
 
 
 def line_of(program: StudentProgram, code: str, number: int = 0) -> int:
@@ -193,8 +198,7 @@ def test_a_line_reached_from_one_callback_runs_for_that_callback():
 # -- changes
 
 
-def test_a_change_moves_no_line_and_is_the_operators_change(walker):
-    made = list(changes(walker))
+def test_a_change_moves_no_line_and_is_the_operators_change(walker, made):
     assert {"misses_a_cancel", "leaves_a_line_out", "drops_a_guard"} <= {one.operator for one in made}
     for one in made:
         lines = one.text.split("\n")
@@ -202,9 +206,9 @@ def test_a_change_moves_no_line_and_is_the_operators_change(walker):
         assert [place for place, line in enumerate(lines, 1) if line != walker.lines[place - 1]] == [one.line]
 
 
-def test_a_line_left_out_is_called_missing(walker):
+def test_a_line_left_out_is_called_missing(walker, made):
     gone = line_of(walker, "goal_handle.canceled()")
-    (one,) = [each for each in changes(walker) if each.line == gone and each.operator == "leaves_a_line_out"]
+    (one,) = [each for each in made if each.line == gone and each.operator == "leaves_a_line_out"]
     assert one.supposed == f"line {gone}, `goal_handle.canceled()`, were missing"
 
 
@@ -227,6 +231,12 @@ def test_subscription_of_a_plain_service_sleeps_first():
     assert "import time; time.sleep(2.5); self.state = message" in change.text
     assert "rclpy.spin" in change.why
     assert "on_status" in change.why
+
+
+def test_a_function_that_makes_a_callback_is_no_callback():
+    program = StudentProgram(known("cancellable_walk", "functions_and_rate"))
+    assert "remember" not in [one.name for one in program.kinds]
+    assert "execute" in [one.name for one in program.kinds]
 
 
 def test_nothing_is_asked_about_an_executor_that_is_not_clear():
