@@ -51,7 +51,10 @@ def questions(
         raise CourseError(
             f"{exercise} is not one program that runs with the robot, so it has no lines to ask about"
         )
-    works = [work for work in collect(submitted).works if work.exercise == exercise]
+    found = collect(submitted)
+    for line in found.refused:
+        console.print(f"left out: {line}", style="yellow", markup=False)
+    works = [work for work in found.works if work.exercise == exercise]
     works = [work for work in works if not student or work.student in student]
     if missing := sorted({*(student or ())} - {work.student for work in works}) or (
         not works and ["anybody"]

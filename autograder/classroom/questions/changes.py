@@ -97,7 +97,7 @@ def _change(
 def _one_thread(program: StudentProgram, call: ast.Call) -> Iterator[Change]:
     """An execute callback keeps a thread, and only further threads let the other callbacks run."""
     for execute in program.callbacks("execute"):
-        waits = program.waits(execute)
+        waits = [one for one in program.waits(execute) if program.loop(one)]
         for other in program.callbacks("subscription")[:1] if waits else ():
             if any(isinstance(one, ast.Await) for one in waits):
                 continue

@@ -70,7 +70,8 @@ class StudentProgram(Program):
 
     def reached(self, function: Named) -> list[Named]:
         """Return a function and all functions of the program that it reaches by calls."""
-        by_name = {one.name: one for one in self.named}
+        names = [one.name for one in self.named]
+        by_name = {one.name: one for one in self.named if names.count(one.name) == 1}
         found = [function]
         for one in found:  # the loop appends to this list
             called = (by_name.get(last_name(call)) for call in self.every(ast.Call, one))
@@ -113,7 +114,8 @@ class StudentProgram(Program):
     def stores(self, read: ast.AST, outside: Named | None) -> list[ast.Assign]:
         """Return the assignments, elsewhere in the program, to the attributes that an expression reads.
 
-        Assignments in `__init__` and in the function `outside` do not count, nor do attributes of its parameters.
+        Assignments in `__init__`, in the function `outside` and in other classes do not count, nor do attributes of the
+        function's parameters.
         """
         parameters = {one.arg for one in outside.args.args} - {"self"} if outside else set()
         names = {ast.unparse(one) for one in self.every(ast.Attribute, read)}
@@ -122,6 +124,9 @@ class StudentProgram(Program):
         return [
             one for one in assigned if self.function(one) not in (None, outside) and not self.is_of_start(one)
         ]
+
+    def _class_of(self, node: ast.AST) -> ast.ClassDef | None:
+        return next((one for one in self.above(node) if isinstance(one, ast.ClassDef)), None)
 
     def is_of_start(self, node: ast.AST) -> bool:
         """Whether a node is in `main`, in an `__init__`, or outside all functions."""

@@ -195,6 +195,14 @@ def test_a_line_reached_from_one_callback_runs_for_that_callback():
     assert program.runs_for(noticed) == ("on_odom", "subscription")
 
 
+def test_an_attribute_of_the_same_name_in_another_class_is_not_what_is_read():
+    other = "\n\nclass Other:\n    def remember(self, state):\n        self.state = state\n"
+    program = StudentProgram(SERVICE + other)
+    (condition,) = program.every(ast.If)
+    (stored,) = program.stores(condition.test, program.function(condition))
+    assert program.function_name(stored) == "on_state"
+
+
 # -- changes
 
 
