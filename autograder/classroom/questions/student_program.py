@@ -121,9 +121,8 @@ class StudentProgram(Program):
         names = {ast.unparse(one) for one in self.every(ast.Attribute, read)}
         names = {name for name in names if name.split(".")[0] not in parameters}
         assigned = [one for one in self.every(ast.Assign) if names & set(map(ast.unparse, one.targets))]
-        return [
-            one for one in assigned if self.function(one) not in (None, outside) and not self.is_of_start(one)
-        ]
+        ours = [one for one in assigned if self._class_of(one) is self._class_of(read)]
+        return [one for one in ours if self.function(one) is not outside and not self.is_of_start(one)]
 
     def _class_of(self, node: ast.AST) -> ast.ClassDef | None:
         return next((one for one in self.above(node) if isinstance(one, ast.ClassDef)), None)
