@@ -71,6 +71,7 @@ COMMANDS: dict[str, Command] = {
         "Grade the programs of regrade requests again, and draft the replies.", FOR_INSTRUCTORS
     ),
     "replay": Command("Show a recorded arena: in the web view, as a film, as text."),
+    "questions": Command("Make questions for each student about their own program.", FOR_INSTRUCTORS),
     "merge": Command("Merge the parts of a class that were graded separately.", FOR_INSTRUCTORS),
     "export": Command("Write the grades for another platform.", FOR_INSTRUCTORS),
     "package": Command("Make an autograder that another platform runs.", FOR_INSTRUCTORS),

@@ -1,0 +1,114 @@
+"""`course questions`: makes short questions for each student about their own program and its run, with keys."""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from hashlib import sha256
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from autograder.classroom.batch.collection import Work, collect
+from autograder.classroom.batch.version import checks_version
+from autograder.classroom.questions.making import Maker
+from autograder.classroom.questions.pages import EXAMINER, STUDENTS, TABLE, write_pages
+from autograder.classroom.questions.question import Sheet, keep, kept
+from autograder.engine.exercise import Exercise, load_exercise
+from autograder.engine.stop import Stop
+from autograder.engine.submission import UnusableSubmission
+from course_cli.ending import COMMAND_FAILED, error_exit
+from course_cli.options import CourseOption, JobsOption
+from ros_runtime.course_error import CourseError
+
+KEPT = ".kept"  # in the output folder: the finished students
+
+
+def questions(
+    exercise: Annotated[str, typer.Argument(help="the exercise, such as cancellable_walk")],
+    submitted: Annotated[Path, typer.Argument(help="the folder of submissions, as `course grade` reads it")],
+    out: Annotated[Path, typer.Option(help="folder for the pages; they go to OUT/EXERCISE")] = Path(
+        "questions"
+    ),
+    student: Annotated[
+        list[str] | None, typer.Option("--student", help="only for this student (can be repeated)")
+    ] = None,
+    number: Annotated[int, typer.Option(min=1, max=6, help="questions for each student")] = 3,
+    jobs: JobsOption = os.cpu_count() or 1,
+    course: CourseOption = None,
+) -> None:
+    """Make short questions for each student about their own program and its run, with keys for the examiner.
+
+    The same student gets the same questions for the same program. After an interruption, type the same command again:
+    finished students are kept.
+    """
+    console = Console(highlight=False)
+    loaded = load_exercise(exercise, hidden=False)
+    is_program = len(loaded.file_names) == 1 and loaded.file_names[0].endswith(".py")
+    if not is_program or any(not scenario.timed for check in loaded.checks for scenario in check.on):
+        raise CourseError(
+            f"{exercise} is not one program that runs with the robot, so it has no lines to ask about"
+        )
+    found = collect(submitted)
+    for line in found.refused:
+        console.print(f"left out: {line}", style="yellow", markup=False)
+    works = [work for work in found.works if work.exercise == exercise]
+    works = [work for work in works if not student or work.student in student]
+    if missing := sorted({*(student or ())} - {work.student for work in works}) or (
+        not works and ["anybody"]
+    ):
+        raise CourseError(f"{submitted} has no submission of {exercise} by {', '.join(missing)}")
+    try:
+        sheets = _make(console, loaded, works, out / exercise / KEPT, number, jobs)
+    except KeyboardInterrupt:
+        again = "Interrupted. Type the same command again to continue."
+        raise error_exit(console, again, COMMAND_FAILED) from None
+    write_pages(out / exercise, exercise, sheets)
+    asked = sum(len(sheet.questions) for sheet in sheets)
+    console.print(
+        f"{asked} questions for {len(sheets)} students in {out / exercise}: {STUDENTS}/ to hand out; {EXAMINER} and "
+        f"{TABLE} have the keys",
+        markup=False,
+    )
+    raise typer.Exit(0 if asked else COMMAND_FAILED)
+
+
+def _make(
+    console: Console, exercise: Exercise, works: list[Work], folder: Path, number: int, jobs: int
+) -> list[Sheet]:
+    """Make the sheets that are not kept from an earlier run, with `jobs` arenas; return all, in order of student."""
+    stop = Stop()
+
+    def make(work: Work) -> Sheet:
+        def say(doing: str) -> None:
+            console.print(f"{work.student}: {doing}", style="dim", markup=False)
+
+        try:
+            submission = work.read()
+        except UnusableSubmission as error:
+            return Sheet(work.student, exercise.name, note=f"no questions: {error}")
+        path = folder / f"{work.student}.json"
+        made_for = sha256(
+            f"{submission.fingerprint} {checks_version(exercise.folder)} {number}".encode()
+        ).hexdigest()
+        if earlier := kept(path, made_for):
+            return earlier
+        sheet = Maker(exercise, submission, number, stop, say).sheet()
+        keep(path, sheet, made_for)
+        return sheet
+
+    sheets: list[Sheet] = []
+    with ThreadPoolExecutor(jobs) as pool:
+        try:
+            for done in as_completed([pool.submit(make, work) for work in works]):
+                sheet = done.result()
+                sheets.append(sheet)
+                line = f"{sheet.student}: {len(sheet.questions)} questions; {len(sheets)} of {len(works)} students"
+                console.print(f"{line}{sheet.note and f' ({sheet.note})'}", markup=False, soft_wrap=True)
+        except BaseException:
+            stop.set()
+            pool.shutdown(cancel_futures=True)
+            raise
+    return sorted(sheets, key=lambda sheet: sheet.student)

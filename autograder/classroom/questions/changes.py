@@ -1,0 +1,184 @@
+"""Changes of one line of a student's program, from which questions are made if the grader sees what they break."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from autograder.classroom.audit.generated.mistakes import OPERATORS
+from autograder.classroom.audit.generated.program import Edits, last_name
+from autograder.classroom.questions.question import Part
+from autograder.classroom.questions.student_program import StudentProgram
+
+# Mistakes that need understanding. Those left out are easy to see (a unit, a sign), or no line that a person writes.
+USED = (
+    *("misses_a_cancel", "ends_otherwise", "answers_otherwise", "takes_the_code_for_the_status"),
+    *("counts_from_the_start", "lets_nan_through", "makes_a_name_absolute", "takes_the_usual_qos"),
+    *("looks_at_the_first_only", "forgets_one_of_several", "forgets_a_reset", "halves_or_doubles"),
+    *("loses_the_exit_status", "takes_another_constant", "leaves_a_field_out", "drops_a_guard"),
+)
+SLEEP_TIME = 2.5  # s
+_SAYS_SOMETHING = ("print", "info", "warning", "warn", "error", "debug", "fatal", "get_logger")
+_THREADS_RUN_OTHERS = "its threads run several callbacks at the same time, so one of them can wait."
+_AWAIT_GIVES_BACK = (
+    "await gives the thread back to the executor until the future is complete. Meanwhile the executor runs the other "
+    "callbacks; later it continues after that line."
+)
+
+
+@dataclass(frozen=True)
+class Change:
+    """A change of a line, and the question that it may become.
+
+    Attributes:
+        kind: of the question.
+        operator: what made it.
+        line: its number.
+        text: the whole changed program.
+        supposed: the change in words: "line 41, …, were missing".
+        situation: what the program has as it is.
+        first: what is asked first, about the program as it is.
+        why: the reason for the effect, as far as the text of the program shows it.
+    """
+
+    kind: Literal["executor", "change"]
+    operator: str
+    line: int
+    text: str
+    supposed: str
+    situation: str = ""
+    first: tuple[Part, ...] = ()
+    why: str = ""
+
+
+def changes(program: StudentProgram) -> Iterator[Change]:
+    """Yield changes of single lines: those of the generated audit that need understanding, and lines left out."""
+    for operator in USED:
+        for edits in OPERATORS[operator][1](program):
+            if not any("__" in new for new in edits.values()):
+                yield from _change(program, "change", operator, edits)
+    for statement in program.every(ast.stmt):
+        if _has_an_effect(statement) and not program.is_of_start(statement):
+            yield from _change(program, "change", "leaves_a_line_out", {statement: "pass"})
+
+
+def executor_changes(program: StudentProgram) -> Iterator[Change]:
+    """Yield changes of the threads, the callback groups and the waits, if the program's executor is known."""
+    call = program.executor()
+    if call and last_name(call) == "MultiThreadedExecutor":
+        yield from _one_thread(program, call)
+        yield from _one_group(program)
+    elif call:
+        yield from _sleeps_instead(program, call)
+        yield from _sleeps_first(program, call)
+
+
+def _change(
+    program: StudentProgram,
+    kind: Literal["executor", "change"],
+    operator: str,
+    edits: Edits,
+    situation: str = "",
+    first: tuple[Part, ...] = (),
+    why: str = "",
+) -> Iterator[Change]:
+    """Yield the change if all its edits are in one line."""
+    text = program.with_text(edits)
+    lines = {node.lineno for node in edits if isinstance(node, ast.expr | ast.stmt)}
+    if text and len(lines) == 1:
+        (line,) = lines
+        new = text.split("\n")[line - 1].strip()
+        supposed = f"{program.quoted(line)}, {'were missing' if new == 'pass' else f'were `{new}`'}"
+        yield Change(kind, operator, line, text, supposed, situation, first, why)
+
+
+def _one_thread(program: StudentProgram, call: ast.Call) -> Iterator[Change]:
+    """An execute callback keeps a thread, and only further threads let the other callbacks run."""
+    for execute in program.callbacks("execute"):
+        waits = [one for one in program.waits(execute) if program.loop(one)]
+        for other in program.callbacks("subscription")[:1] if waits else ():
+            if any(isinstance(one, ast.Await) for one in waits):
+                continue
+            place = program.quoted(waits[0].lineno)
+            asked = (
+                f"While {execute.name} waits in {place}, {other.name} (line {other.lineno}) goes on. Which line of "
+                "your program makes that possible, and how?"
+            )
+            why = (
+                f"The only thread waits in {place} until the goal ends. Meanwhile no other callback runs: neither "
+                f"{other.name} nor those for goals and cancels."
+            )
+            first = (Part(asked, f"{program.quoted(call.lineno)}: {_THREADS_RUN_OTHERS}"),)
+            edits: Edits = {call: f"{ast.unparse(call.func)}(num_threads=1)"}
+            yield from _change(program, "executor", "one_thread", edits, first=first, why=why)
+
+
+def _one_group(program: StudentProgram) -> Iterator[Change]:
+    """A callback that keeps its thread, or what it waits for, comes into the node's default group."""
+    waiting = [
+        one.name for one in program.callbacks("service", "subscription", "timer") if program.waits(one)
+    ]
+    for word in program.every(ast.keyword) if waiting else ():
+        if word.arg == "callback_group":
+            why = (
+                "None is the node's default group, which is mutually exclusive: however many threads there are, only "
+                f"one of its callbacks runs at a time. {' and '.join(waiting)} waits."
+            )
+            yield from _change(program, "executor", "one_group", {word.value: "None"}, why=why)
+
+
+def _sleeps_instead(program: StudentProgram, spin: ast.Call) -> Iterator[Change]:
+    """A coroutine sleeps where it awaits in a loop, in a node with one thread."""
+    for execute in program.callbacks("execute"):
+        for wait in program.waits(execute):
+            statement, awaited = program.statement(wait), getattr(wait, "value", None)
+            if (
+                not isinstance(wait, ast.Await)
+                or not isinstance(statement, ast.Expr)
+                or not program.loop(wait)
+            ):
+                continue
+            is_sleep = isinstance(awaited, ast.Call) and awaited.args and "sleep" in last_name(awaited)
+            seconds = ast.unparse(awaited.args[0]) if is_sleep and isinstance(awaited, ast.Call) else "0.05"
+            for other in program.callbacks("subscription")[:1]:
+                asked = (
+                    f"Your node has one thread. Why does {other.name} (line {other.lineno}) go on while "
+                    f"{program.function_name(wait)} waits in {program.quoted(wait.lineno)}?"
+                )
+                why = f"The only thread ({program.quoted(spin.lineno)}) sleeps, and meanwhile no other callback runs."
+                edits: Edits = {statement: f"{_import_time(program)}time.sleep({seconds})"}
+                first = (Part(asked, _AWAIT_GIVES_BACK),)
+                yield from _change(program, "executor", "sleeps_instead", edits, first=first, why=why)
+
+
+def _sleeps_first(program: StudentProgram, spin: ast.Call) -> Iterator[Change]:
+    """A callback for messages sleeps, and the callbacks for requests and goals wait for the one thread."""
+    others = ", ".join(one.name for one in program.callbacks("service", "goal", "execute"))
+    for callback in program.callbacks("subscription", "timer") if others else ():
+        first = callback.body[1 if ast.get_docstring(callback) and len(callback.body) > 1 else 0]
+        if isinstance(first, ast.Assign | ast.Expr):
+            why = (
+                f"One thread runs all callbacks ({program.quoted(spin.lineno)}): while {callback.name} sleeps, no "
+                f"other runs ({others}), and what {callback.name} stores is late."
+            )
+            edits: Edits = {first: f"{_import_time(program)}time.sleep({SLEEP_TIME}); {ast.unparse(first)}"}
+            yield from _change(program, "executor", "sleeps_first", edits, why=why)
+
+
+def _has_an_effect(statement: ast.stmt) -> bool:
+    """Whether a statement calls something other than a log, or stores something that other functions may read."""
+    if isinstance(statement, ast.Assign):
+        return isinstance(statement.targets[0], ast.Attribute)
+    called = getattr(statement, "value", None)
+    return (
+        isinstance(statement, ast.Expr)
+        and isinstance(called, ast.Call)
+        and last_name(called) not in _SAYS_SOMETHING
+    )
+
+
+def _import_time(program: StudentProgram) -> str:
+    imported = [name.name for one in program.every(ast.Import) for name in one.names if not name.asname]
+    return "" if "time" in imported else "import time; "

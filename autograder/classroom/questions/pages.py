@@ -1,0 +1,38 @@
+"""Writes the pages with questions: one for each student to print, one with the keys for the examiner, and a table."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from autograder.atomic_file import write_atomically
+from autograder.classroom.export.tables import csv_text, text_cell
+from autograder.classroom.questions.question import Sheet
+from autograder.report.rendering import write_html
+
+STUDENTS, EXAMINER, TABLE = "students", "examiner.html", "questions.csv"
+COLUMNS = ("student_id", "exercise", "question", "part", "kind", "line", "situation", "asked", "key")
+LETTERS = "abcdefgh"
+
+
+def write_pages(out: Path, exercise: str, sheets: Sequence[Sheet]) -> None:
+    """Write all pages of an exercise; the students' pages contain no keys."""
+    for sheet in sheets:
+        if sheet.questions:
+            title = f"{exercise} · {sheet.student}: questions about your program"
+            _write(out / STUDENTS / f"{sheet.student}.html", title, [sheet], with_keys=False)
+    _write(out / EXAMINER, f"{exercise}: questions with keys", sheets, with_keys=True)
+    rows: list[list[str | float]] = [
+        [
+            *(text_cell(sheet.student), exercise, number, LETTERS[place], one.kind, one.line),
+            *map(text_cell, (one.situation, part.asked, part.key)),
+        ]
+        for sheet in sheets
+        for number, one in enumerate(sheet.questions, 1)
+        for place, part in enumerate(one.parts)
+    ]
+    write_atomically(out / TABLE, csv_text(COLUMNS, rows))
+
+
+def _write(path: Path, title: str, sheets: Sequence[Sheet], *, with_keys: bool) -> None:
+    write_html(path, "questions.html", title=title, sheets=sheets, with_keys=with_keys, letters=LETTERS)

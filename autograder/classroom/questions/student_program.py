@@ -1,0 +1,174 @@
+"""What the text of a student's program says about its callbacks, its threads and its waits; nothing is executed."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from importlib.util import find_spec
+from pathlib import Path
+
+from autograder.classroom.audit.generated.program import Edits, Named, Program, callbacks, last_name
+
+WAITS = ("sleep", "wait", "wait_for")  # names of calls that keep the thread
+MOST_LINES = 2000  # of a program that is read, so that no text keeps the command busy for hours
+LONGEST_QUOTE = 100  # characters of a line of code
+_KINDS = ("subscription", "service", "timer", "feedback", "goal", "cancel")
+# Further callbacks of an ActionServer: the keyword, and the position among its arguments.
+_OF_ACTION_SERVERS = {"execute": ("execute_callback", 3), "accepted": ("handle_accepted_callback", 6)}
+_NEW_LINE = re.compile("\r\n|\r|\n")  # what ends a line in Python; str.splitlines knows more
+
+
+class UnreadableProgram(Exception):
+    """The program cannot be parsed, or imports interfaces that do not exist."""
+
+
+class StudentProgram(Program):
+    """The syntax tree of a student's program, with the text of its lines and the kind of each callback."""
+
+    def __init__(self, text: str) -> None:
+        """Raises `UnreadableProgram`: whatever a student's text can cause is caught here."""
+        self.lines = _NEW_LINE.split(text)
+        if len(self.lines) > MOST_LINES:
+            raise UnreadableProgram(f"it has {len(self.lines)} lines; at most {MOST_LINES} are read")
+        try:
+            _require_interfaces(ast.parse(text))
+            super().__init__(text)
+            ast.unparse(self.tree)
+        except Exception as error:
+            raise UnreadableProgram(f"{type(error).__name__}: {error}") from error
+        self.named = [one for one in self.every(ast.stmt) if isinstance(one, Named)]
+        registered = {one: kind for kind in _KINDS for one in callbacks(self, kind)}
+        self.kinds: dict[Named, str] = {
+            one: kind for one, kind in registered.items() if not self._makes_callbacks(one)
+        }
+        for call in self.every(ast.Call):
+            for kind, (keyword, place) in (
+                _OF_ACTION_SERVERS.items() if last_name(call) == "ActionServer" else ()
+            ):
+                given = [word.value for word in call.keywords if word.arg == keyword] + call.args[place:][:1]
+                self.kinds |= {one: kind for one in self.named if given and one.name == last_name(given[0])}
+
+    def quoted(self, line: int) -> str:
+        """Return a line as a question quotes it: 'line 41, `goal_handle.canceled()`'."""
+        code = self.lines[line - 1].strip()
+        return f"line {line}, `{code if len(code) <= LONGEST_QUOTE else code[:LONGEST_QUOTE] + '…'}`"
+
+    def _makes_callbacks(self, function: Named) -> bool:
+        """Whether a function returns a function, so that not itself but what it returns is the callback."""
+        inner = {one.name for one in self.named if self.function(one) is function}
+        returned = [one.value for one in self.every(ast.Return, function)]
+        return any(isinstance(one, ast.Lambda) or getattr(one, "id", "") in inner for one in returned)
+
+    def callbacks(self, *kinds: str) -> list[Named]:
+        """Return the callbacks of these kinds."""
+        return [one for one, kind in self.kinds.items() if kind in kinds]
+
+    def function(self, node: ast.AST) -> Named | None:
+        """Return the innermost named function around a node."""
+        return next((one for one in self.functions(node) if isinstance(one, Named)), None)
+
+    def reached(self, function: Named) -> list[Named]:
+        """Return a function and all functions of the program that it reaches by calls."""
+        names = [one.name for one in self.named]
+        by_name = {one.name: one for one in self.named if names.count(one.name) == 1}
+        found = [function]
+        for one in found:  # the loop appends to this list
+            called = (by_name.get(last_name(call)) for call in self.every(ast.Call, one))
+            found += dict.fromkeys(each for each in called if each and each not in found)
+        return found
+
+    def runs_for(self, node: ast.AST) -> tuple[str, str]:
+        """Return the name and the kind of the only callback that reaches the function around a node; else "", ""."""
+        function = self.function(node)
+        found = [(one.name, kind) for one, kind in self.kinds.items() if function in self.reached(one)]
+        return found[0] if len(found) == 1 else ("", "")
+
+    def waits(self, function: Named) -> list[ast.Call | ast.Await]:
+        """Return where a function, and those that it calls, keep the thread for a time, or give it back by `await`."""
+        return [wait for one in self.reached(function) for wait in self.waits_in(one)]
+
+    def waits_in(self, node: ast.AST) -> Iterator[ast.Call | ast.Await]:
+        """Yield the waits inside one node."""
+        for one in self.every(ast.expr, node):
+            is_call = isinstance(one, ast.Call) and last_name(one) in WAITS
+            if isinstance(one, ast.Await) or (is_call and not isinstance(self.parent(one), ast.Await)):
+                yield one  # type: ignore[misc]
+
+    def loop(self, node: ast.AST) -> ast.While | ast.For | None:
+        """Return the innermost loop around a node in its own function."""
+        around = (one for one in self.above(node) if isinstance(one, Named | ast.While | ast.For))
+        return one if isinstance(one := next(around, None), ast.While | ast.For) else None
+
+    def condition(self, node: ast.AST) -> tuple[ast.If | None, bool]:
+        """Return the innermost `if` of the same function that leads to a node, and whether it has to be true."""
+        below = node
+        for one in self.above(node):
+            if isinstance(one, Named):
+                break
+            if isinstance(one, ast.If) and below is not one.test:
+                return one, below in one.body
+            below = one
+        return None, True
+
+    def stores(self, read: ast.AST, outside: Named | None) -> list[ast.Assign]:
+        """Return the assignments, elsewhere in the program, to the attributes that an expression reads.
+
+        Assignments in `__init__`, in the function `outside` and in other classes do not count, nor do attributes of the
+        function's parameters.
+        """
+        parameters = {one.arg for one in outside.args.args} - {"self"} if outside else set()
+        names = {ast.unparse(one) for one in self.every(ast.Attribute, read)}
+        names = {name for name in names if name.split(".")[0] not in parameters}
+        assigned = [one for one in self.every(ast.Assign) if names & set(map(ast.unparse, one.targets))]
+        ours = [one for one in assigned if self._class_of(one) is self._class_of(read)]
+        return [one for one in ours if self.function(one) is not outside and not self.is_of_start(one)]
+
+    def _class_of(self, node: ast.AST) -> ast.ClassDef | None:
+        return next((one for one in self.above(node) if isinstance(one, ast.ClassDef)), None)
+
+    def is_of_start(self, node: ast.AST) -> bool:
+        """Whether a node is in `main`, in an `__init__`, or outside all functions."""
+        return self.function_name(node) in ("main", "__init__", "module")
+
+    def executor(self) -> ast.Call | None:
+        """Return the call that decides how many threads run the callbacks; None if that is not clear."""
+        calls = list(self.every(ast.Call))
+        executors = [one for one in calls if last_name(one).endswith("Executor")]
+        known = [
+            one for one in executors if last_name(one) in ("MultiThreadedExecutor", "SingleThreadedExecutor")
+        ]
+        spins = [one for one in calls if re.match(r"rclpy\.spin", ast.unparse(one.func))]
+        return (
+            (known[0] if len(executors) == len(known) == 1 else None)
+            if executors
+            else next(iter(spins), None)
+        )
+
+    def with_text(self, edits: Edits) -> str | None:
+        """Return the program with edits in single lines and no line moved; None if the text cannot express them."""
+        lines = [line.encode() for line in self.lines]
+        for node, new in sorted(edits.items(), key=lambda edit: -edit[0].col_offset):  # type: ignore[attr-defined]
+            assert isinstance(node, ast.expr | ast.stmt)
+            if "\n" in new or node.lineno != node.end_lineno:
+                return None
+            old = lines[node.lineno - 1]
+            lines[node.lineno - 1] = old[: node.col_offset] + new.encode() + old[node.end_col_offset :]
+        text = "\n".join(line.decode(errors="replace") for line in lines)
+        try:
+            is_same = ast.dump(ast.parse(text)) == ast.dump(ast.parse(self.changed(edits)))
+        except SyntaxError:
+            return None
+        return text if is_same else None
+
+
+def _require_interfaces(tree: ast.Module) -> None:
+    """Require that a program imports its interfaces from packages of interfaces: `Program` imports these, too."""
+    for one in ast.walk(tree):
+        package, _, kind = (getattr(one, "module", "") or "").rpartition(".")
+        if isinstance(one, ast.ImportFrom) and kind in ("msg", "srv", "action"):
+            found = find_spec(package) if package.isidentifier() else None
+            if not any(
+                (Path(place) / kind).is_dir() for place in (found and found.submodule_search_locations) or ()
+            ):
+                raise ImportError(f"there is no package of interfaces {package!r}")
