@@ -6,6 +6,7 @@ import math
 
 import pytest
 from geometry_msgs.msg import Twist
+from records import failure_of
 
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
@@ -105,9 +106,7 @@ def test_a_walk_that_is_too_fast_is_reported_with_the_excess(velocity, advice):
     ],
 )
 def test_a_robot_that_does_not_arrive_is_reported_with_its_motion(motion, advice):
-    with pytest.raises(Failure) as failed:
-        require_reached(walked(motion, 12.0).goal("walk"))
-    assert advice in failed.value.help
+    assert advice in failure_of(require_reached, walked(motion, 12.0).goal("walk")).help
 
 
 def test_the_shorter_way_round_crosses_pi():

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from action_msgs.msg import GoalStatus
+from records import failure_of
 from sensor_msgs.msg import BatteryState
 
 from autograder.authoring.evidence import events as ev
@@ -99,9 +100,7 @@ def judge(check: str, *parts: list[Any]) -> None:
 
 
 def failure(check: str, *parts: list[Any]) -> Failure:
-    with pytest.raises(Failure) as caught:
-        judge(check, *parts)
-    return caught.value
+    return failure_of(judge, check, *parts)
 
 
 FOUR = [
