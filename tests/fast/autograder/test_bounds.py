@@ -6,7 +6,6 @@ import json
 from typing import Any
 
 import pytest
-from records import failure_of
 
 from autograder.authoring.checks import Scenario
 from autograder.authoring.evidence import events as ev
@@ -16,6 +15,7 @@ from autograder.engine.bounds import require_bounded
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.srv import GetBatteryStatus
+from records import failure_of
 from ros_runtime.record.event import to_line
 
 JUDGING = exercise_module("interfaces", "judging")

@@ -6,7 +6,6 @@ import math
 
 import pytest
 from geometry_msgs.msg import Twist
-from records import failure_of
 
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
@@ -23,30 +22,11 @@ from autograder.authoring.walking.obligations.walks import (
 )
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
+from records import failure_of, robot
 from ros_runtime.message_constants import GoalStatus
 
 PERIOD = 0.02  # s between two samples of the robot
 AFTERWARDS = 1.5  # s
-
-
-def truth(t, x=0.0, yaw=0.0, speed=0.0):
-    mode = RobotState.WALKING if speed else RobotState.STANDING
-    return ev.RobotTruth(
-        t=t,
-        simulated=t,
-        lag=0.0,
-        x=x,
-        y=0.0,
-        z=0.6,
-        yaw=yaw,
-        speed=speed,
-        turn_rate=0.0,
-        up=1.0,
-        mode=mode,
-        motors_enabled=True,
-        steps=0,
-        battery=1.0,
-    )
 
 
 def walked(motion, seconds, *, goal_yaw=0.0, max_velocity=0.1, still_moving=0.0, commands=()):
@@ -72,7 +52,9 @@ def walked(motion, seconds, *, goal_yaw=0.0, max_velocity=0.1, still_moving=0.0,
     for k in range(round((seconds + AFTERWARDS) / PERIOD) + 1):
         t = k * PERIOD
         x, yaw = motion(min(t, seconds))
-        events.append(truth(t, x, yaw, 0.2 if t < seconds else still_moving))
+        speed = 0.2 if t < seconds else still_moving
+        mode = RobotState.WALKING if speed else RobotState.STANDING
+        events.append(robot(t, mode=mode, x=x, yaw=yaw, speed=speed))
     return Transcript.from_events("walk", {}, events)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import pytest
-from records import failure_of
 
 from autograder.arena.poses import pose_at
 from autograder.authoring.evidence import events as ev
@@ -16,6 +15,7 @@ from autograder.authoring.walking.objections import accepting, one_of_several, r
 from autograder.authoring.walking.obligations import cancels, ends, reporting, walks
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
+from records import failure_of, robot
 from ros_runtime.message_constants import GoalStatus
 
 ACCEPTS = accepting(
@@ -28,14 +28,6 @@ ACCEPTS = accepting(
 )
 PERIOD = 0.02  # s between two samples of the robot
 END = 30.0  # s
-
-
-def robot(t, *, x=0.0, steps=0, mode=RobotState.STANDING, powered=True):
-    speed = 0.2 if mode == RobotState.WALKING else 0.0
-    return ev.RobotTruth(
-        t=t, simulated=t, lag=0.0, x=x, y=0.0, z=0.6, yaw=0.0, speed=speed, turn_rate=0.0, up=1.0,
-        mode=mode, motors_enabled=powered, steps=steps, battery=1.0,
-    )  # fmt: skip
 
 
 def a_walk(start, x0, x1, speed=0.2):
@@ -57,15 +49,8 @@ def run_of(*events, motions=(), down=math.inf):
         parts = [motion(t) for motion in motions]
         walking_now = any(part[2] for part in parts)
         mode = RobotState.FALLEN if t >= down else RobotState.WALKING if walking_now else RobotState.STANDING
-        truths.append(
-            robot(
-                t,
-                x=sum(part[0] for part in parts),
-                steps=sum(part[1] for part in parts),
-                mode=mode,
-                powered=t < down,
-            )
-        )
+        x, steps = (sum(part[index] for part in parts) for index in (0, 1))
+        truths.append(robot(t, x=x, steps=steps, mode=mode, motors=t < down, speed=0.2 * walking_now))
     started = ev.NodeStarted(t=0.0)
     return Transcript.from_events("in_order", {}, [started, *events, *truths, ev.ScenarioEnded(t=END)])
 

@@ -16,7 +16,6 @@ from autograder.classroom.batch.job import GradingJob, Outcome
 from autograder.classroom.batch.worker_pool import WorkerPool, Workers, threads
 from autograder.engine.verdict import CheckVerdict, Grade
 
-
 FORKING = get_context("forkserver")
 FORKING.set_forkserver_preload([__name__])  # so that the workers of each pool import nothing
 
