@@ -2,6 +2,7 @@
 
 import pytest
 
+from audited.proof import enough_to_prove
 from autograder.classroom.audit.known_submission import known_submissions, require_known_checks
 from autograder.engine.exercise import exercise_names, load_exercise
 
@@ -29,6 +30,16 @@ NEVER_ALONE = {
 def test_headers_name_checks_that_exist(name):
     for known in KNOWN[name]:
         require_known_checks(known, [check.id for check in EXERCISES[name].checks])
+
+
+@pytest.mark.parametrize("name", EXERCISES)
+def test_those_that_ci_grades_prove_as_much_as_all(name):
+    graded = enough_to_prove(KNOWN[name])
+    named, named_by_all = (
+        {check for known in of for check in known.caught_by} for of in (graded, KNOWN[name])
+    )
+    assert named == named_by_all
+    assert {known.kind for known in graded} == {known.kind for known in KNOWN[name]}
 
 
 @pytest.mark.parametrize("name", EXERCISES)
