@@ -10,7 +10,7 @@ from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.side import Side
 
-SETTLED = 4.0  # s, more than it takes to come to rest after a reset
+SETTLED = 2.5  # s, more than it takes to come to rest after a reset
 SEEN = 1e-5  # rad, m, rad/s, m/s: a hundredth of the gyro's noise, and half a thousandth of a degree
 
 
