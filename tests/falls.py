@@ -16,6 +16,8 @@ from autograder.engine.judging import verdict_on
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.recording.recorder import Recorder
 from humanoid_interfaces.action import WalkTo
+from humanoid_interfaces.msg import RobotState
+from records import robot
 from robot_sim.humanoid import Humanoid
 from robot_sim.ros.posture import PostureReader
 
@@ -68,13 +70,6 @@ def _at(event: Any, t: float) -> Any:
     return type(event)(**{**vars(event), "t": t})
 
 
-def robot(t: float, mode: int) -> ev.RobotTruth:
-    numbers = dict.fromkeys(("x", "y", "z", "yaw", "speed", "turn_rate", "lag"), 0.0)
-    return ev.RobotTruth(
-        t=t, simulated=t, up=1.0, mode=mode, motors_enabled=mode != 0, steps=0, battery=1.0, **numbers
-    )
-
-
 def walk(*more: Any, postures: Any = (), until: float = 2.0) -> Transcript:
     goal = WalkTo.Goal(max_velocity=0.3)
     goal.target_pose.header.frame_id = "odom"
@@ -90,8 +85,8 @@ def walk(*more: Any, postures: Any = (), until: float = 2.0) -> Transcript:
             ev.FeedbackReceived(t=0.4, goal="first", feedback=WalkTo.Feedback(distance_remaining=0.5)),
             ev.NodeOutput(t=0.5, stream="stderr", text="[WARN] [17.2] [walker]: slow"),
             ev.ResultReceived(t=1.9, goal="first", status=6, result=WalkTo.Result(error_code=1)),
-            robot(0.1, 1),
-            robot(1.2, 3),
+            robot(0.1),
+            robot(1.2, mode=RobotState.FALLEN),
             *postures,
             *more,
             ev.ScenarioEnded(t=until),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -27,8 +28,8 @@ def slow_part(command: Any) -> str | None:
     return slow[0] if slow else None
 
 
-@pytest.fixture(autouse=True)
-def only_light_processes(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture(autouse=True, scope="module")
+def only_light_processes() -> Iterator[None]:
     """Refuse slow programs at their start."""
     start = subprocess.Popen.__init__
 
@@ -37,4 +38,6 @@ def only_light_processes(monkeypatch: pytest.MonkeyPatch) -> None:
             raise TooSlowForThisTier(f"{slow}: move this test to tests/arena, tests/robot or tests/browser")
         start(self, args, *rest, **options)
 
-    monkeypatch.setattr(subprocess.Popen, "__init__", start_if_light)
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(subprocess.Popen, "__init__", start_if_light)
+        yield

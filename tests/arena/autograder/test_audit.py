@@ -9,9 +9,12 @@ The correct and the hostile submission of each exercise come first. The faulty o
 as they share arenas. On a slow machine, `--audit-minutes` skips what has not begun by then, and the summary counts it.
 """
 
+import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 
+import psutil
 import pytest
 
 from audited.proof import enough_to_catch, enough_to_prove
@@ -23,6 +26,9 @@ from autograder.isolation.availability import available_isolation
 from developer.test import LOST_POINTS
 
 ARENAS_AT_A_TIME = 3  # two processors: an arena waits for its own clock two thirds of the time
+MORE_IF_IDLE = 3  # when the other tests have ended, three arenas use little more than half of two processors
+IDLE_BELOW = 60  # % of the processors' time, in the last `LOOK` s
+LOOK = 4.0  # s
 EXERCISES = {name: load_exercise(name, hidden=True) for name in exercise_names()}
 PROVING = [known for name in EXERCISES for known in enough_to_prove(known_submissions(name), of_each=1)]
 GRADED = sorted(PROVING, key=lambda known: known.kind == "faulty")
@@ -30,6 +36,33 @@ GRADED = sorted(PROVING, key=lambda known: known.kind == "faulty")
 
 def label(known):
     return f"{known.exercise}/{known.name}"
+
+
+class Places:
+    """Lets `ARENAS_AT_A_TIME` gradings go on at a time, and `MORE_IF_IDLE` more while processors are idle."""
+
+    def __init__(self):
+        self._places = threading.Semaphore(ARENAS_AT_A_TIME)
+        self._turn = threading.Lock()
+
+    @contextmanager
+    def one(self):
+        """Wait for a place, or until the processors are idle."""
+        with self._turn:  # one after the other, so that each sees the load of the one before
+            has_place = self._place_or_idle()
+        try:
+            yield
+        finally:
+            if has_place:
+                self._places.release()
+
+    def _place_or_idle(self):
+        while True:
+            psutil.cpu_percent()  # measures from here on
+            if self._places.acquire(timeout=LOOK):
+                return True
+            if psutil.cpu_percent() < IDLE_BELOW:
+                return False
 
 
 @pytest.fixture(scope="session")
@@ -41,11 +74,13 @@ def audited(request):
     minutes = request.config.getoption("audit_minutes")
     end = time.monotonic() + minutes * 60
 
+    places = Places()
+
     def audit_in_time(known):
-        if time.monotonic() > end:
-            return None
         exercise = enough_to_catch(known, EXERCISES[known.exercise])
-        with shared.lent_to(known, exercise) as arenas:
+        with places.one(), shared.lent_to(known, exercise) as arenas:
+            if time.monotonic() > end:
+                return None
             return audit_one(
                 known,
                 exercise,
@@ -59,7 +94,7 @@ def audited(request):
             pytest.skip(f"not begun within --audit-minutes {minutes:g}: the machine is slow")
         return audit
 
-    with SharedArenas(wanted) as shared, ThreadPoolExecutor(ARENAS_AT_A_TIME) as pool:
+    with SharedArenas(wanted) as shared, ThreadPoolExecutor(ARENAS_AT_A_TIME + MORE_IF_IDLE) as pool:
         runs = {known.path: pool.submit(audit_in_time, known) for known in wanted}
         yield result_of
         pool.shutdown(cancel_futures=True)

@@ -6,39 +6,27 @@ from collections.abc import Iterable
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
-from bench.robot import (
-    carries,
-    crouches,
-    estimates,
-    goals,
-    grasps,
-    hand_poses,
-    limits,
-    pushes,
-    reaches,
-    servo,
-    soak,
-    speed,
-    stops,
-    terrain,
-)
+from bench.robot.balance import Crouches, Estimates, Pushes, Terrain
+from bench.robot.hands import Carries, Grasps, HandPoses, Reaches
+from bench.robot.speed import Speed
 from bench.robot.trial import Summary, Trial
+from bench.robot.walking import Goals, Limits, Servo, Soak, Stops
 
 TRIALS: dict[str, Trial] = {
-    "goals": goals.TRIAL,
-    "limits": limits.TRIAL,
-    "stops": stops.TRIAL,
-    "servo": servo.TRIAL,
-    "soak": soak.TRIAL,
-    "pushes": pushes.TRIAL,
-    "terrain": terrain.TRIAL,
-    "estimates": estimates.TRIAL,
-    "crouches": crouches.TRIAL,
-    "reaches": reaches.TRIAL,
-    "hand_poses": hand_poses.TRIAL,
-    "grasps": grasps.TRIAL,
-    "carries": carries.TRIAL,
-    "speed": speed.TRIAL,
+    "goals": Goals(),
+    "limits": Limits(),
+    "stops": Stops(),
+    "servo": Servo(),
+    "soak": Soak(),
+    "pushes": Pushes(),
+    "terrain": Terrain(),
+    "estimates": Estimates(),
+    "crouches": Crouches(),
+    "reaches": Reaches(),
+    "hand_poses": HandPoses(),
+    "grasps": Grasps(),
+    "carries": Carries(),
+    "speed": Speed(),
 }
 
 

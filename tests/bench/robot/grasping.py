@@ -43,6 +43,16 @@ class Grasp:
         """Return where the cup is, (3,) m."""
         return self.robot.object_poses()["cup"].position
 
+    def take(self) -> str:
+        """Grasp the cup and lift it; return what went wrong, or ""."""
+        self.get_ready()
+        if not self.approach():
+            return "the hand did not reach the cup"
+        if not self.close():
+            return "the fingers did not close on the cup"
+        self.lift()
+        return ""
+
     def get_ready(self) -> None:
         """Open the hand and lift it above the table."""
         self._hand.open_to(0.09)

@@ -37,6 +37,11 @@ class KnownGoal:
     goal: HandGoal
     reachable: bool
 
+    def __str__(self) -> str:
+        waist = "waist" if self.goal.with_waist else "arm only"
+        orientation = "any" if self.goal.rotation is None else "oriented"
+        return f"{self.side.letter}, {waist}, {orientation}, {self.goal.position.round(3).tolist()}"
+
 
 def known_goals(count: int = COUNT) -> list[KnownGoal]:
     """Return the first `count` of the goals: of each eight, both arms, with and without waist and orientation.

@@ -1,11 +1,12 @@
-"""The types of a trial: many independent runs of the robot, summarized in one row."""
+"""A trial: many independent runs of the robot, summarized in rows of one table."""
 
 from __future__ import annotations
 
 import math
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from robot_sim.humanoid import Humanoid
@@ -22,15 +23,12 @@ class Run:
         success: it did what it should.
         note: why not, or "".
         values: measured numbers by name, with the unit in the name.
-        simulated, cpu: seconds of simulation and of the processor.
     """
 
     case: Any
     success: bool
-    note: str = ""
-    values: dict[str, float] = field(default_factory=dict)
-    simulated: float = 0.0
-    cpu: float = 0.0
+    note: str
+    values: dict[str, float]
 
 
 @dataclass(frozen=True)
@@ -57,19 +55,40 @@ class Summary:
     failures: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class Trial:
-    """A trial: its cases, how to run one (in any process), and how to sum up.
+Attempt = tuple[
+    Humanoid, str, dict[str, float]
+]  # the robot afterwards, what is wrong or "", measured numbers
 
-    Attributes:
-        cases: arguments of the runs; told whether to be quick.
-        run: one run.
-        summarize: rows from the runs, in the order of the cases.
-    """
 
-    cases: Callable[[bool], Sequence[Any]]
-    run: Callable[[Any], Run]
-    summarize: Callable[[Sequence[Run]], list[Summary]]
+class Trial(ABC):
+    """Its cases, how to try one (in any process), and how to sum up."""
+
+    @abstractmethod
+    def cases(self, quick: bool) -> Sequence[Any]:
+        """Return the arguments of the runs; `quick`: a few only."""
+
+    @abstractmethod
+    def attempt(self, case: Any) -> Attempt:
+        """Try one case."""
+
+    @abstractmethod
+    def summarize(self, runs: Sequence[Run]) -> list[Summary]:
+        """Return rows from the runs, in the order of the cases."""
+
+    def run(self, case: Any) -> Run:
+        """Try one case; a fall is noted before anything else, and what the attempt has not measured is added."""
+        clock = Clock()
+        humanoid, note, values = self.attempt(case)
+        if has_fallen(humanoid) and not note.startswith("fell"):
+            note = "fell"
+        measured = {"duration_s": humanoid.time, "simulated_s": humanoid.time, "cpu_s": clock.read()}
+        return Run(_printable(case), not note, note, measured | values)
+
+
+def _printable(case: Any) -> Any:
+    if isinstance(case, tuple):
+        return tuple(map(_printable, case))
+    return round(case, 3) if isinstance(case, float) else case
 
 
 class Clock:
@@ -117,42 +136,22 @@ def feet_midpoint(humanoid: Humanoid) -> tuple[float, float]:
     return (left[0] + right[0]) / 2, (left[1] + right[1]) / 2
 
 
-def run_of(
-    case: Sequence[float | str],
-    humanoid: Humanoid,
-    clock: Clock,
-    note: str,
-    values: dict[str, float] | None = None,
-) -> Run:
-    """Return the run of a case that ends now; a fall is noted before anything else."""
-    note = "fell" if has_fallen(humanoid) else note
-    return Run(
-        case=tuple(part if isinstance(part, str) else round(part, 3) for part in case),
-        success=not note,
-        note=note,
-        values={"duration_s": humanoid.time, **(values or {})},
-        simulated=humanoid.time,
-        cpu=clock.read(),
-    )
-
-
 def summary(
-    title: str,
-    runs: Sequence[Run],
-    measured: str,
-    reference: str,
-    met: bool,
+    title: str, runs: Sequence[Run], measured: str, reference: str, *, met: bool | None = None
 ) -> Summary:
-    """Return the row of these runs, with their counts, real-time factor and failures."""
-    cpu = sum(run.cpu for run in runs)
+    """Return the row of these runs, with their counts, real-time factor and failures.
+
+    `met`: whether the reference is reached; None if every run has to succeed.
+    """
+    cpu = sum(run.values["cpu_s"] for run in runs)
     return Summary(
         title=title,
         successes=sum(run.success for run in runs),
         runs=len(runs),
         measured=measured,
         reference=reference,
-        met=met,
-        real_time_factor=sum(run.simulated for run in runs) / cpu if cpu else math.nan,
+        met=all(run.success for run in runs) if met is None else met,
+        real_time_factor=sum(run.values["simulated_s"] for run in runs) / cpu if cpu else math.nan,
         failures=tuple(f"{run.case}: {run.note}" for run in runs if not run.success),
     )
 
@@ -167,6 +166,6 @@ def mean(values: Sequence[float]) -> float:
     return sum(values) / len(values)
 
 
-def all_succeeded(runs: Sequence[Run]) -> bool:
-    """Return whether every run succeeded."""
-    return all(run.success for run in runs)
+def mean_and_max(metres: Sequence[float], digits: int = 0) -> str:
+    """Return mean and maximum in words, in mm."""
+    return f"mean {1000 * mean(metres):.{digits}f} mm, max {1000 * max(metres):.{digits}f} mm"

@@ -7,7 +7,6 @@ from types import SimpleNamespace
 import pytest
 from rich.console import Console
 
-from audited.proof import enough_to_catch, enough_to_prove
 from autograder.authoring.checks import Scenario, check
 from autograder.classroom.audit.kill_matrix import figures, kill_matrix
 from autograder.classroom.audit.known_submission import HeaderError, known_submissions, read_known_submission
@@ -17,7 +16,6 @@ from autograder.engine.verdict import CheckVerdict, Grade
 
 CORRECT = '"""Style: plain."""\n'
 FAULTY = '"""Fault: sleeps\nin the callback (M2)\nCaught by: answers\nAlso fails: ends\n\nCaught by nobody else."""\n'
-HARMLESS = '"""Attack: looks around\nOutcome: sees nothing\nPasses: nothing it did not do\n"""\n'
 HOSTILE = '"""Attack: forks\nOutcome: dies of it\nCaught by: appears\n"""\n'
 
 
@@ -184,37 +182,3 @@ def test_an_ungraded_submission_is_graded_again_at_the_end(folder, exercise, mon
     assert gradings == ["correct", "faulty", "correct"]
     assert [run.known.kind for run in reported] == ["faulty", "correct"]
     assert [run.grade.status for run in runs] == ["graded", "graded"]
-
-
-def test_enough_to_prove_has_each_check_once_and_all_correct_and_hostile_submissions(tmp_path, monkeypatch):
-    monkeypatch.setenv(FOLDER_VARIABLE, str(tmp_path))
-
-    def write(kind, name, header):
-        place = tmp_path / "service" / "known" / kind
-        place.mkdir(parents=True, exist_ok=True)
-        (place / f"{name}.py").write_text(f'"""{header}"""')
-
-    write("correct", "plain", "Style: plain")
-    write("faulty", "narrow", "Fault: slow\nCaught by: answers")
-    write("faulty", "wide", "Fault: slow\nCaught by: answers, ends")
-    write("faulty", "deaf", "Fault: sleeps (M2)\nCaught by: answers")
-    write("hostile", "bomb", "Attack: forks\nOutcome: dies\nCaught by: appears")
-    enough = enough_to_prove(known_submissions("service"))
-    assert [known.name for known in enough] == ["correct/plain", "faulty/deaf", "faulty/wide", "hostile/bomb"]
-
-
-@pytest.mark.parametrize(
-    ("kind", "source", "checks"),
-    [
-        ("correct", CORRECT, {"appears": (), "answers": ("appears",), "ends": ("answers",)}),
-        ("faulty", FAULTY, {"answers": ()}),
-        ("hostile", HOSTILE.replace("appears", "answers"), {"appears": (), "answers": ("appears",)}),
-        ("hostile", HARMLESS, {"appears": (), "answers": ("appears",), "ends": ("answers",)}),
-    ],
-)
-def test_enough_to_catch_has_the_checks_that_a_submission_names_or_may_fail(
-    folder, exercise, kind, source, checks
-):
-    known = read(folder(**{kind: source}), kind)
-    enough = enough_to_catch(known, exercise).checks
-    assert {check.id: tuple(need.id for need in check.needs) for check in enough} == checks

@@ -10,11 +10,12 @@ import pytest
 from autograder.authoring.checks import Scenario
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.authoring.failure import CannotBeJudged, Failure
+from autograder.authoring.failure import CannotBeJudged
 from autograder.engine.bounds import require_bounded
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.srv import GetBatteryStatus
+from records import failure_of
 from ros_runtime.record.event import to_line
 
 JUDGING = exercise_module("interfaces", "judging")
@@ -27,12 +28,6 @@ def run_with(*events: Any, **params: Any) -> Transcript:
 
 def bounded(run: Transcript) -> None:
     require_bounded(run, Scenario("any"))
-
-
-def failure_of(question: Any, *arguments: Any) -> Failure:
-    with pytest.raises(Failure) as caught:
-        question(*arguments)
-    return caught.value
 
 
 def feedback(goal: str, number: int) -> list[Any]:

@@ -11,6 +11,7 @@ from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.srv import ComputeIK
+from records import failure_of
 
 MODEL = exercise_module("compute_ik", "model")
 TwoLinkArm = exercise_module("compute_ik", "two_link_arm").TwoLinkArm
@@ -115,29 +116,21 @@ def test_an_error_of_two_millimetres_is_too_large():
     ],
 )
 def test_the_advice_names_the_mistake(shoulder, elbow, advice):
-    with pytest.raises(Failure) as failure:
-        require_hit(answer(shoulder, elbow))
-    assert advice in failure.value.help
+    assert advice in failure_of(require_hit, answer(shoulder, elbow)).help
 
 
 def test_an_answer_for_the_default_lengths_is_recognised():
-    with pytest.raises(Failure) as failure:
-        require_hit(answer(SHOULDER, ELBOW), lengths=(0.22, 0.30))
-    assert "upper_arm_length" in failure.value.help
+    assert "upper_arm_length" in failure_of(require_hit, answer(SHOULDER, ELBOW), lengths=(0.22, 0.30)).help
 
 
 @pytest.mark.parametrize(("code", "advice"), [(0, "constants"), (-31, "up to their sum")])
 def test_a_code_that_is_none_is_told_from_a_wrong_one(code, advice):
-    with pytest.raises(Failure) as failure:
-        require_hit(answer(SHOULDER, ELBOW, error_code=code))
-    assert advice in failure.value.help
+    assert advice in failure_of(require_hit, answer(SHOULDER, ELBOW, error_code=code)).help
 
 
 def sides(run_below, run_above):
     """Return the advice for angles given with elbow_up false and true."""
-    with pytest.raises(Failure) as failure:
-        require_side(answer(*run_below), answer(*run_above, elbow_up=True))
-    return failure.value.help
+    return failure_of(require_side, answer(*run_below), answer(*run_above, elbow_up=True)).help
 
 
 def test_an_elbow_always_on_one_side_is_distinguished_from_swapped_sides():
@@ -155,10 +148,9 @@ def test_an_elbow_always_on_one_side_is_distinguished_from_swapped_sides():
 @pytest.mark.parametrize("frame", ["", "l_shoulder"])
 def test_only_shoulder_is_the_frame_of_the_arm(frame):
     either = " either" if not frame else ""
-    with pytest.raises(Failure) as failure:
-        MODEL.refuses_other_frames.judge(run(answer(SHOULDER, ELBOW, frame=frame)))
+    failure = failure_of(MODEL.refuses_other_frames.judge, run(answer(SHOULDER, ELBOW, frame=frame)))
     assert (
-        failure.value.help
+        failure.help
         == f"{frame!r} is not 'shoulder'{either}: before computing, return FRAME_TRANSFORM_FAILURE "
         "for every other frame."
     )
@@ -207,6 +199,9 @@ def test_with_an_invalid_length_any_answer_is_accepted(length):
 
 def test_a_request_without_an_answer_is_named_by_its_target():
     events = run(answer(0.0, 0.0, target=(0.03, 0.02))).events[:1]
-    with pytest.raises(Failure) as failure:
-        MODEL.reaches_the_point.judge(Transcript.from_events("in_order", {"steps": []}, events))
-    assert "(0.03, 0.02)" in failure.value.expected
+    assert (
+        "(0.03, 0.02)"
+        in failure_of(
+            MODEL.reaches_the_point.judge, Transcript.from_events("in_order", {"steps": []}, events)
+        ).expected
+    )

@@ -18,7 +18,7 @@ from autograder.classroom.audit.generated.pattern import filled, match, parsed
 from autograder.classroom.audit.generated.run import equivalents, figures, is_one_of, selected, survivors
 from autograder.classroom.audit.known_submission import HeaderError
 from autograder.classroom.audit.run import AuditedRun
-from autograder.engine.exercise import exercise_names, load_exercise
+from autograder.engine.exercise import load_exercise
 from autograder.engine.judging import verdict_on
 from autograder.engine.verdict import CheckVerdict, Grade
 from course_cli.app import app
@@ -202,25 +202,6 @@ def test_names_do_not_change_when_other_lines_are_edited(tmp_path):
         1,
     )
     assert before <= {mutant.name for mutant in mutants(tmp_path, edited)}
-
-
-FEW = {"interfaces": 0, "patterns": 0}  # definitions are not programs; answers are words
-
-
-@pytest.mark.parametrize("name", exercise_names())
-def test_every_exercise_yields_enough_mutants_with_names_of_their_own(name):
-    made = mutants_of_exercise(name)
-    assert len(made) >= FEW.get(name, 60)
-    assert len({mutant.name for mutant in made}) == len(made)
-    assert len(selected(made, 60)) == min(60, len(made))
-
-
-@pytest.mark.parametrize("name", exercise_names())
-def test_equivalents_are_still_made(name):
-    made = mutants_of_exercise(name)
-    assert [
-        patterns for patterns in equivalents(name) if not any(is_one_of(patterns, one) for one in made)
-    ] == []
 
 
 def test_selection_takes_operators_and_bases_in_turn():

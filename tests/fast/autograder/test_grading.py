@@ -18,6 +18,7 @@ from autograder.engine.stop import Stop, Stopped
 from autograder.engine.submission import Submission
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
+from records import robot
 
 ISOLATED = Isolation(Kind.NAMESPACES, "given")
 SUBMISSION = Submission("battery_service", "ada", {"battery_service.py": ""})
@@ -30,15 +31,8 @@ def graded(exercise, *, stop=None, watcher=None, **options):
     return grading.grade(SUBMISSION, exercise, options, watcher or grading.Watcher(), stop=stop)
 
 
-def robot(t, lag):
-    still = dict.fromkeys(("x", "y", "yaw", "speed", "turn_rate", "steps"), 0)
-    return ev.RobotTruth(
-        t=t, simulated=t, lag=lag, z=0.6, up=1, mode=1, motors_enabled=True, battery=1, **still
-    )
-
-
 def transcript(scenario, *, lag=0.0, mark=None, scale=5.0):
-    events = [*BEGINNING, robot(1.0, 0.0), robot(2.0, lag)]
+    events = [*BEGINNING, robot(1.0), robot(2.0, lag=lag)]
     if mark:
         events.append(ev.Mark(t=3.0, name=mark))
     events.append(ev.ScenarioEnded(t=3.0))

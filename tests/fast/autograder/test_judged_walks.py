@@ -22,30 +22,11 @@ from autograder.authoring.walking.obligations.walks import (
 )
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
+from records import failure_of, robot
 from ros_runtime.message_constants import GoalStatus
 
 PERIOD = 0.02  # s between two samples of the robot
 AFTERWARDS = 1.5  # s
-
-
-def truth(t, x=0.0, yaw=0.0, speed=0.0):
-    mode = RobotState.WALKING if speed else RobotState.STANDING
-    return ev.RobotTruth(
-        t=t,
-        simulated=t,
-        lag=0.0,
-        x=x,
-        y=0.0,
-        z=0.6,
-        yaw=yaw,
-        speed=speed,
-        turn_rate=0.0,
-        up=1.0,
-        mode=mode,
-        motors_enabled=True,
-        steps=0,
-        battery=1.0,
-    )
 
 
 def walked(motion, seconds, *, goal_yaw=0.0, max_velocity=0.1, still_moving=0.0, commands=()):
@@ -71,7 +52,9 @@ def walked(motion, seconds, *, goal_yaw=0.0, max_velocity=0.1, still_moving=0.0,
     for k in range(round((seconds + AFTERWARDS) / PERIOD) + 1):
         t = k * PERIOD
         x, yaw = motion(min(t, seconds))
-        events.append(truth(t, x, yaw, 0.2 if t < seconds else still_moving))
+        speed = 0.2 if t < seconds else still_moving
+        mode = RobotState.WALKING if speed else RobotState.STANDING
+        events.append(robot(t, mode=mode, x=x, yaw=yaw, speed=speed))
     return Transcript.from_events("walk", {}, events)
 
 
@@ -105,9 +88,7 @@ def test_a_walk_that_is_too_fast_is_reported_with_the_excess(velocity, advice):
     ],
 )
 def test_a_robot_that_does_not_arrive_is_reported_with_its_motion(motion, advice):
-    with pytest.raises(Failure) as failed:
-        require_reached(walked(motion, 12.0).goal("walk"))
-    assert advice in failed.value.help
+    assert advice in failure_of(require_reached, walked(motion, 12.0).goal("walk")).help
 
 
 def test_the_shorter_way_round_crosses_pi():

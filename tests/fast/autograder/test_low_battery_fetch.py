@@ -16,6 +16,7 @@ from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import CannotBeJudged, Failure
 from autograder.engine.exercise import load_exercise
 from humanoid_interfaces.action import NavigateToPose, PickAndPlace
+from records import failure_of
 
 CHECKS = {check.id: check for check in load_exercise("low_battery_fetch", hidden=True).checks}
 SERVERS = {"navigate_to_pose": "server 1", "pick_and_place": "server 2"}
@@ -99,9 +100,7 @@ def judge(check: str, *parts: list[Any]) -> None:
 
 
 def failure(check: str, *parts: list[Any]) -> Failure:
-    with pytest.raises(Failure) as caught:
-        judge(check, *parts)
-    return caught.value
+    return failure_of(judge, check, *parts)
 
 
 FOUR = [

@@ -13,6 +13,7 @@ from autograder.authoring.failure import CannotBeJudged, Failure
 from autograder.engine.completeness import require_whole
 from autograder.engine.judging import judge
 from humanoid_interfaces.action import WalkTo
+from records import robot
 
 BEGINNING = (ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0))
 ASKED = ev.ServiceCalled(t=2.0, call="first", service="get_status", request=Trigger.Request())
@@ -31,11 +32,6 @@ REFUSED = ev.RobotRefused(
     reason="the robot takes at most 500 points",
 )
 WITH_ROBOT, WITHOUT = Scenario("ask"), Scenario("ask", robot=None)
-
-
-def robot(t, **fields):
-    numbers = dict.fromkeys(("x", "y", "z", "yaw", "speed", "turn_rate", "steps"), 0) | {"up": 1, "lag": 0}
-    return ev.RobotTruth(t=t, simulated=t, mode=1, motors_enabled=True, battery=1, **(numbers | fields))
 
 
 def transcript(*events, until=10.0, robot_until=10.0):

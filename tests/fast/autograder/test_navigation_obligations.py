@@ -11,6 +11,7 @@ from autograder.authoring.failure import Failure
 from autograder.authoring.walking.obligations import ends
 from humanoid_interfaces.action import NavigateToPose
 from humanoid_interfaces.msg import RobotState
+from records import robot
 from ros_runtime.message_constants import GoalStatus
 from solutions.navigate_to_pose import model
 from solutions.navigate_to_pose.legs import operated
@@ -25,24 +26,7 @@ def run_of(*events, x=0.9, walked=10.0, steps=()):
     for k in range(round(END / PERIOD) + 1):
         t = k * PERIOD
         mode = RobotState.WALKING if t < walked else RobotState.STANDING
-        truths.append(
-            ev.RobotTruth(
-                t=t,
-                simulated=t,
-                lag=0.0,
-                x=x * min(1.0, t / walked),
-                y=0.0,
-                z=0.6,
-                yaw=0.0,
-                speed=0.0,
-                turn_rate=0.0,
-                up=1.0,
-                mode=mode,
-                motors_enabled=True,
-                steps=int(2 * min(t, walked)),
-                battery=1.0,
-            )
-        )
+        truths.append(robot(t, mode=mode, x=x * min(1.0, t / walked), steps=int(2 * min(t, walked))))
     events = [ev.NodeStarted(t=0.0), *events, *truths, ev.ScenarioEnded(t=END)]
     return Transcript.from_events("in_order", {"steps": steps}, events)
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
-from test_grading import BEGINNING, ISOLATED, SUBMISSION, arenas, exercise, robot, statuses
+from test_grading import BEGINNING, ISOLATED, SUBMISSION, arenas, exercise, statuses
 
 from autograder.authoring.checks import RESTING, Scenario, checks_in
 from autograder.authoring.diagnosis.missing import Missing
@@ -15,6 +15,7 @@ from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
 from autograder.authoring.obligation import check_of, obligation, whole_run
 from autograder.engine import grading
+from records import failure_of, robot
 
 ASK = Scenario("in_order", {"steps": [["ask", 1], ["wait", 2.5]]}, robot=RESTING)
 DRAWN = Scenario(
@@ -31,7 +32,7 @@ def run_of(scenario, *, said="", steps_done=None, missing=()):
     marks = [ev.Mark(t=float(number), name=f"step {number}") for number in range(1, done + 1)]
     printed = [ev.NodeOutput(t=done - 0.5, stream="stdout", text=said)] if said else []
     end = ev.ScenarioEnded(t=len(steps) + 1.0)
-    seen = [robot(float(second), 0.0) for second in range(1, len(steps) + 2)]
+    seen = [robot(float(second)) for second in range(1, len(steps) + 2)]
     events = [event for event in (*BEGINNING, *marks, *printed, *seen, end) if event.kind not in missing]
     return Transcript.from_events(scenario.name, scenario.draw(0), events, 5.0)
 
@@ -61,9 +62,10 @@ def test_a_failure_points_to_the_lesson_of_the_obligation_unless_its_check_names
     whole = replace(prints, require=lambda run: "always", see="02_services#first-file")
     taught = replace(prints, see="02_services#conventions")
     for see, expected in (("", taught.see), ("02_services#nan", "02_services#nan")):
-        with pytest.raises(Failure) as failed:
-            check_of([whole, taught], on=ASK, see=see).run([run_of(ASK, said="bad")])
-        assert failed.value.see == expected
+        assert (
+            failure_of(check_of([whole, taught], on=ASK, see=see).run, [run_of(ASK, said="bad")]).see
+            == expected
+        )
     assert check_of([whole, taught], on=ASK).see == whole.see  # if none of them fails alone
 
 

@@ -7,8 +7,8 @@ from std_srvs.srv import SetBool, Trigger
 
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.authoring.failure import Failure
 from autograder.engine.exercise import exercise_module, load_exercise
+from records import failure_of
 
 CHECKS = {check.id: check for check in load_exercise("robot_controller", hidden=True).checks}
 MODEL = exercise_module("robot_controller", "model")
@@ -66,9 +66,7 @@ def failure(check, *parts, **params):
     events = [event for part in parts for event in part]
     begin = [ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0)]
     run = Transcript.from_events("it", params, [*begin, *events, ev.ScenarioEnded(t=END)])
-    with pytest.raises(Failure) as failed:
-        CHECKS[check].run([run])
-    return failed.value
+    return failure_of(CHECKS[check].run, [run])
 
 
 # -- it hangs ---------------------------------------------------------------------------------------------------------
@@ -288,10 +286,9 @@ def test_a_deadline_of_10_s_is_kept_also_where_the_program_takes_its_time_to_end
 
 
 def test_separate_timeouts_do_not_make_a_deadline():
-    with pytest.raises(Failure) as failed:
-        CHECKS["keeps_one_deadline"].run([run_of(late(12.2, 12.5))])
-    assert failed.value.observed == "it gave up after 11.2 s; get_status was called after 6.3 s and 8.3 s"
-    assert "the remaining time as the limit" in failed.value.help
+    failed = failure_of(CHECKS["keeps_one_deadline"].run, [run_of(late(12.2, 12.5))])
+    assert failed.observed == "it gave up after 11.2 s; get_status was called after 6.3 s and 8.3 s"
+    assert "the remaining time as the limit" in failed.help
 
 
 def test_the_scenario_distinguishes_programs_with_and_without_a_deadline():
@@ -330,7 +327,6 @@ def test_a_program_may_look_for_both_servers_at_once_or_in_turn(gave_up):
     ],
 )
 def test_a_search_that_is_too_short_or_too_long(parts, observed):
-    with pytest.raises(Failure) as failed:
-        MODEL.looks_for_two_seconds.judge(run_of(parts))
-    assert failed.value.observed == observed
-    assert "timeout_sec=2.0" in failed.value.help
+    failed = failure_of(MODEL.looks_for_two_seconds.judge, run_of(parts))
+    assert failed.observed == observed
+    assert "timeout_sec=2.0" in failed.help

@@ -10,6 +10,8 @@ import pytest
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.robot_record import RobotRecord
 from autograder.authoring.walking.path import length, length_walked, walking_speed
+from humanoid_interfaces.msg import RobotState
+from records import robot
 
 SWAY = 0.03  # m to each side
 STRIDE = 0.98  # s, two steps
@@ -20,10 +22,7 @@ def walk(x: Callable[[float], float], duration: float) -> RobotRecord:
 
     def at(t: float) -> ev.RobotTruth:
         sway = SWAY * math.sin(2 * math.pi * t / STRIDE)
-        return ev.RobotTruth(
-            t=t, simulated=t, lag=0, x=x(t), y=sway, z=0.6, yaw=0, speed=0.3, turn_rate=0, up=1, mode=2,
-            motors_enabled=True, steps=0, battery=1,
-        )  # fmt: skip
+        return robot(t, mode=RobotState.WALKING, x=x(t), y=sway, speed=0.3)
 
     return RobotRecord.from_events("walk", {}, [at(0.02 * k) for k in range(int(duration / 0.02) + 1)])
 

@@ -15,6 +15,7 @@ from autograder.authoring.walking.objections import accepting, one_of_several, r
 from autograder.authoring.walking.obligations import cancels, ends, reporting, walks
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
+from records import failure_of, robot
 from ros_runtime.message_constants import GoalStatus
 
 ACCEPTS = accepting(
@@ -27,14 +28,6 @@ ACCEPTS = accepting(
 )
 PERIOD = 0.02  # s between two samples of the robot
 END = 30.0  # s
-
-
-def robot(t, *, x=0.0, steps=0, mode=RobotState.STANDING, powered=True):
-    speed = 0.2 if mode == RobotState.WALKING else 0.0
-    return ev.RobotTruth(
-        t=t, simulated=t, lag=0.0, x=x, y=0.0, z=0.6, yaw=0.0, speed=speed, turn_rate=0.0, up=1.0,
-        mode=mode, motors_enabled=powered, steps=steps, battery=1.0,
-    )  # fmt: skip
 
 
 def a_walk(start, x0, x1, speed=0.2):
@@ -56,15 +49,8 @@ def run_of(*events, motions=(), down=math.inf):
         parts = [motion(t) for motion in motions]
         walking_now = any(part[2] for part in parts)
         mode = RobotState.FALLEN if t >= down else RobotState.WALKING if walking_now else RobotState.STANDING
-        truths.append(
-            robot(
-                t,
-                x=sum(part[0] for part in parts),
-                steps=sum(part[1] for part in parts),
-                mode=mode,
-                powered=t < down,
-            )
-        )
+        x, steps = (sum(part[index] for part in parts) for index in (0, 1))
+        truths.append(robot(t, x=x, steps=steps, mode=mode, motors=t < down, speed=0.2 * walking_now))
     started = ev.NodeStarted(t=0.0)
     return Transcript.from_events("in_order", {}, [started, *events, *truths, ev.ScenarioEnded(t=END)])
 
@@ -278,6 +264,4 @@ def test_an_invalid_estimate_is_named(estimate):
     run = run_of(
         *goal("walk", 1.0, 1.0), *feedback, ended("walk", 8.0, 0.97, 10), motions=[a_walk(1.2, 0.0, 0.97)]
     )
-    with pytest.raises(Failure) as failed:
-        reporting.estimates_the_time(run.goal("walk"))
-    assert "estimated_time_remaining" in failed.value.expected
+    assert "estimated_time_remaining" in failure_of(reporting.estimates_the_time, run.goal("walk")).expected

@@ -16,9 +16,12 @@ from autograder.classroom.batch.job import GradingJob, Outcome
 from autograder.classroom.batch.worker_pool import WorkerPool, Workers, threads
 from autograder.engine.verdict import CheckVerdict, Grade
 
+FORKING = get_context("forkserver")
+FORKING.set_forkserver_preload([__name__])  # so that the workers of each pool import nothing
+
 
 def new_pool() -> Executor:
-    return ProcessPoolExecutor(2, mp_context=get_context("spawn"))
+    return ProcessPoolExecutor(2, mp_context=FORKING)
 
 
 def job(student: str) -> GradingJob:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import filecmp
 import shutil
 from pathlib import Path
 
@@ -25,6 +24,7 @@ from autograder.engine.exercise import all_names, essay_names, exercise_names, f
 ROOT = Path(__file__).resolve().parents[3]
 SOLUTIONS = ROOT / "solutions"
 EXERCISES = ROOT / "exercises"
+FEW = ("arm_architecture", "battery_service")
 RENEW = "run ./course release --exercises and commit what it changes"
 
 
@@ -111,20 +111,17 @@ def solutions_in(folder, exercise):
     return {magic.removeprefix("%%writefile "): source for magic, _, source in written}
 
 
-def test_making_the_release_again_gives_the_same_bytes(tmp_path):
-    for folder in ("first", "second"):
-        generate_release(SOLUTIONS, tmp_path / folder)
-    compared = filecmp.dircmp(tmp_path / "first", tmp_path / "second")
-    assert compared.common_dirs == all_names()
-    for exercise in all_names():
-        name = f"{exercise}/{exercise}.ipynb"
-        assert (tmp_path / "first" / name).read_bytes() == (tmp_path / "second" / name).read_bytes()
+@pytest.fixture
+def few(tmp_path):
+    """Copies of solutions/ and exercises/ with one exercise and one essay."""
+    for folder in (SOLUTIONS, EXERCISES):
+        for exercise in FEW:
+            shutil.copytree(folder / exercise, tmp_path / folder.name / exercise)
+    return tmp_path / SOLUTIONS.name, tmp_path / EXERCISES.name
 
 
-def test_outdated_files_are_named_and_renewed(tmp_path):
-    solutions, exercises = tmp_path / "solutions", tmp_path / "exercises"
-    shutil.copytree(SOLUTIONS, solutions)
-    shutil.copytree(EXERCISES, exercises)
+def test_outdated_files_are_named_and_renewed(few):
+    solutions, exercises = few
     source = solutions / "battery_service/battery_service.ipynb"
     release = exercises / "battery_service/battery_service.ipynb"
     source.write_text(source.read_text().replace('"points": 2', '"points": 3'))
@@ -139,10 +136,9 @@ def test_outdated_files_are_named_and_renewed(tmp_path):
     assert not leftover.exists()
 
 
-def test_a_program_left_beside_a_source_notebook_is_not_released(tmp_path):
-    solutions = tmp_path / "solutions"
-    shutil.copytree(SOLUTIONS, solutions)
+def test_a_program_left_beside_a_source_notebook_is_not_released(few, tmp_path):
+    solutions, _ = few
     (solutions / "battery_service/battery_service.py").write_text("the reference solution")
-    generate_release(solutions, tmp_path / "exercises")
-    written = [path.name for path in (tmp_path / "exercises").rglob("*") if path.is_file()]
-    assert sorted(written) == [f"{exercise}.ipynb" for exercise in all_names()]
+    generate_release(solutions, tmp_path / "made")
+    written = [path.name for path in (tmp_path / "made").rglob("*") if path.is_file()]
+    assert sorted(written) == [f"{exercise}.ipynb" for exercise in FEW]

@@ -13,27 +13,11 @@ from autograder.classroom.pages.plots import motion_svgs
 from autograder.engine.verdict import CheckVerdict, Grade
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
+from records import robot
 from ros_runtime.message_constants import GoalStatus
 
 SOURCES = {"walk_to.py": "print('a program')"}
 FAILED = CheckVerdict("walks", "It walks", "failed", 0, 2, expected="1 m", observed="0 m", robot_time=3.0)
-
-
-def robot(t, x):
-    numbers = dict.fromkeys(("y", "yaw", "turn_rate", "lag", "steps"), 0) | {
-        "x": x,
-        "z": 0.6,
-        "speed": 0.2,
-        "up": 1,
-    }
-    return ev.RobotTruth(
-        t=t,
-        simulated=t,
-        mode=RobotState.WALKING,
-        motors_enabled=True,
-        battery=1,
-        **numbers,
-    )
 
 
 def walk(to=1.0, goal_x=1.0, scenario="walk_ahead"):
@@ -49,7 +33,7 @@ def walk(to=1.0, goal_x=1.0, scenario="walk_ahead"):
             *(ev.FeedbackReceived(t=1 + k / 5, goal="a <b>", feedback=WalkTo.Feedback()) for k in range(5)),
             ev.CancelSent(t=2.0, cancel="1", goal="a <b>", by="client"),
             ev.ResultReceived(t=2.5, goal="a <b>", status=GoalStatus.CANCELED, result=WalkTo.Result()),
-            *(robot(k / 10, to * k / 30) for k in range(31)),
+            *(robot(k / 10, mode=RobotState.WALKING, x=to * k / 30, speed=0.2) for k in range(31)),
         ],
     )
 

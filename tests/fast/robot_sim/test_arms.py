@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from bench.robot import grasps
 from bench.robot.grasping import Grasp
+from bench.robot.hands import Grasps
 from bench.robot.reach import HandTarget
 from bench.robot.trial import simulate
 from bench.robot.trial_humanoid import TrialHumanoid
@@ -196,7 +196,7 @@ def test_a_hand_opens_as_far_as_commanded(humanoid, asked, got):
 
 
 def test_it_grasps_the_cup_and_puts_it_down():
-    run = grasps.run((0.33, -0.17, 0.33, -0.08))
+    run = Grasps().run((0.33, -0.17, 0.33, -0.08))
     assert run.success, run.note
     assert 8.0 < run.values["force_N"] < 12.0
     assert run.values["error_m"] < 0.01

@@ -1,12 +1,14 @@
-"""A robot that was used and reset, or built before a fork, behaves bit for bit like a new one."""
+"""A robot that was used and reset, or built before a fork, behaves bit for bit like a new one of its seed."""
 
 from __future__ import annotations
 
 import hashlib
 import os
 
+import numpy as np
 import pytest
 
+from bench.robot.trial import simulate
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.side import Side
 from robot_sim.ros.options import RobotOptions
@@ -81,3 +83,23 @@ def traced_in_a_fork(built: Humanoid) -> str:
         digest = answer.read()
     os.waitpid(child, 0)
     return digest
+
+
+def test_reading_sensors_changes_nothing():
+    read, unread = Humanoid(), Humanoid()
+    for humanoid in (read, unread):
+        humanoid.walk_velocity(0.3, 0.05, 0.2)
+    for _ in range(300):
+        read.step()
+        read.imu()
+        unread.step()
+    assert read.data.qpos.tobytes() == unread.data.qpos.tobytes()
+    assert read.imu().angular_velocity.tobytes() == unread.imu().angular_velocity.tobytes()
+
+
+def test_another_seed_has_another_gyro_bias_but_the_same_motion():
+    one, other = Humanoid(seed=1), Humanoid(seed=2)
+    simulate(one, 0.2)
+    simulate(other, 0.2)
+    assert one.data.qpos.tobytes() == other.data.qpos.tobytes()
+    assert not np.allclose(one.imu().angular_velocity, other.imu().angular_velocity, atol=1e-6)

@@ -8,8 +8,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from bench.robot import hand_poses
 from bench.robot.hand_goals import KnownGoal, known_goals
+from bench.robot.hands import HandPoses
 from bench.robot.trial import simulate
 from robot_sim.arms.inverse_kinematics import (
     ArmInverseKinematics,
@@ -82,7 +82,7 @@ def test_two_hundred_goals_of_both_arms_are_solved_or_refused_as_they_should(kin
     "case", known_goals(8), ids=lambda known: f"{known.side.letter}-{known.goal.with_waist}"
 )
 def test_a_robot_that_takes_the_posture_has_its_hand_there(case):
-    outcome = hand_poses.run(case)
+    outcome = HandPoses().run(case)
     assert outcome.success, outcome.note
 
 

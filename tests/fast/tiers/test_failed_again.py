@@ -29,6 +29,12 @@ def test_verdict(request):
 """
 
 
+@pytest.fixture(autouse=True)
+def without_plugins(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Loading them takes longer than these tests."""
+    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
+
+
 @pytest.mark.parametrize(("needed", "passes"), [(2, True), (3, False)])
 def test_failed_tests_run_again_without_the_others(
     tmp_path: Path, capfd: pytest.CaptureFixture[str], needed: int, passes: bool

@@ -11,7 +11,13 @@ from pathlib import Path
 
 import pytest
 from execution import Executed, execute
-from gap_trials import GapTrials
+from gap_trials import GapTrials, trials_of
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """Give a test of gaps the trials of its chapter."""
+    if "trial" in metafunc.fixturenames:
+        metafunc.parametrize("trial", trials_of(metafunc.module.CHAPTER), ids=str)
 
 
 @pytest.fixture(scope="session")
@@ -33,6 +39,12 @@ def executed(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Execut
         return outcome
 
     return run_once
+
+
+@pytest.fixture
+def chapter(request: pytest.FixtureRequest, executed: Callable[[str], Executed]) -> Executed:
+    """The chapter that the test's file names as CHAPTER, after its run."""
+    return executed(request.module.CHAPTER)
 
 
 @pytest.fixture(scope="module")

@@ -49,8 +49,8 @@ def in_order(text: str, *parts: str) -> bool:
 
 
 def number(pattern: str, text: str) -> float:
-    """The number that a pattern finds in a text."""
-    found = re.search(pattern, text)
+    """The number that a pattern finds in a text; `#` in the pattern is any number."""
+    found = re.search(pattern.replace("#", r"(-?[\d.]+)"), text)
     assert found, (pattern, text)
     return float(found[1])
 

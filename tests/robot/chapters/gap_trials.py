@@ -1,17 +1,52 @@
-"""Fills the gaps of a chapter with lines other than their solutions."""
+"""Fills the gaps of a chapter with lines other than their solutions.
+
+The lines are in gaps/<chapter>.yaml, by the file of the gap. An entry has all its `lines`, or a `change`: a part of the
+solution, and what replaces it. With `says` the lines are wrong and the reply has these words; else they are right.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import nbformat
 import pytest
+import yaml
 from execution import CHAPTERS
 from kernels import CellError, Kernel
 
 from lab.learning.gap_cells import MAGIC, fill, fill_gaps, gaps_of
 
 WRITEFILE = "%%writefile "
+TRIALS = Path(__file__).with_name("gaps")
+
+
+@dataclass(frozen=True)
+class Trial:
+    """Lines for the gap of a file, and what the reply says; None: they are accepted."""
+
+    file: str
+    says: str | None = None
+    lines: str = ""
+    change: Mapping[str, str] = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        return f"{self.file}: {self.says or 'accepted'}"
+
+    def lines_beside(self, solution: str) -> str:
+        """Return the lines for the gap that has this solution."""
+        lines = self.lines or solution
+        for part, replaced in self.change.items():
+            assert lines.count(part) == 1, f"{part!r} is in these lines {lines.count(part)} times:\n{lines}"
+            lines = lines.replace(part, replaced)
+        return lines
+
+
+def trials_of(chapter: str) -> list[Trial]:
+    """Return the trials of a chapter's gaps in the order of its file."""
+    trials = yaml.safe_load((TRIALS / f"{chapter}.yaml").read_text(encoding="utf-8"))
+    return [Trial(file, **entry) for file, entries in trials.items() for entry in entries]
 
 
 class GapTrials:
@@ -22,8 +57,8 @@ class GapTrials:
 
     def __init__(self, chapter: str, folder: Path) -> None:
         notebook = nbformat.read(CHAPTERS / f"{chapter}.ipynb", as_version=4)
-        self._programs = {file: program for file, (program, _) in gaps_of(notebook).items()}
-        self.solved = {file: fill(program, lines) for file, (program, lines) in gaps_of(notebook).items()}
+        self._gaps = gaps_of(notebook)
+        self.solved = {file: fill(program, lines) for file, (program, lines) in self._gaps.items()}
         fill_gaps(notebook)
         for cell in notebook.cells:
             for magic in (MAGIC, WRITEFILE):
@@ -38,15 +73,22 @@ class GapTrials:
         """Run a cell that a gap needs before it, such as `lab.start_robot()`; return what it printed."""
         return self._kernel.run(code, timeout)
 
+    def require_reply(self, trial: Trial) -> None:
+        """Fill the gap; the test fails if the reply is not as the trial says."""
+        lines = trial.lines_beside(self._gaps[trial.file][1])
+        fill_in = self.accept if trial.says is None else self.reply
+        printed, expected = fill_in(trial.file, lines), trial.says or f"✓ {trial.file}: "
+        assert expected in printed, printed
+
     def reply(self, file: str, lines: str) -> str:
         """Fill the gap with these lines and return the printed reply; the test fails if they are accepted."""
         with pytest.raises(CellError) as raised:
-            self._kernel.run(f"%%gap {file}\n{fill(self._programs[file], lines + chr(10))}")
+            self.accept(file, lines)
         return str(raised.value)
 
     def accept(self, file: str, lines: str) -> str:
         """Fill the gap with these lines and return the printed reply; the test fails if they are rejected."""
-        return self._kernel.run(f"%%gap {file}\n{fill(self._programs[file], lines + chr(10))}")
+        return self._kernel.run(f"%%gap {file}\n{fill(self._gaps[file][0], lines + chr(10))}")
 
     def end(self) -> None:
         """End the kernel and what runs in it."""

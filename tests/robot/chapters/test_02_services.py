@@ -3,18 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 
-import pytest
 from execution import Executed, in_order
-from gap_trials import GapTrials
+from gap_trials import GapTrials, Trial
 
 CHAPTER = "02_services"
-
-
-@pytest.fixture
-def chapter(executed: Callable[[str], Executed]) -> Executed:
-    return executed(CHAPTER)
 
 
 def test_the_first_server_tells_where_the_robot_walked(chapter: Executed) -> None:
@@ -132,108 +125,5 @@ def test_the_careful_planner_catches_one_of_the_two_lies(chapter: Executed) -> N
     assert in_order(chapter.text("planner-run"), "walk home", "stop and report")
 
 
-@pytest.mark.parametrize(
-    ("lines", "said"),
-    [
-        ("response.success = False", "return response inside the `if`"),
-        ("return None", "end each path of the callback with `return response`"),
-        ("return response", "an empty message"),
-        ("response.success = True\nreturn response", "success=True although no odom has arrived"),
-        ("response.succes = False\nreturn response", "AttributeError"),
-    ],
-)
-def test_the_gap_of_a_server_without_odom_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
-    assert said in gaps.reply("where_am_i_fixed.py", lines)
-
-
-OFF = """if request.data and not self.state.motors_enabled:
-    response.success, response.message = False, "motors off"
-    return response"""
-UNKNOWN = """if request.data and self.state is None:
-    response.success, response.message = False, "no robot_state yet"
-    return response"""
-EITHER = "self.state is None or not self.state.motors_enabled"
-REFUSE = "response.success, response.message = False, 'cannot march'"
-
-
-@pytest.mark.parametrize(
-    ("lines", "said"),
-    [
-        ("pass", "success=True for a start before the first robot_state"),
-        (OFF, "test `self.state is None` before you read"),
-        (UNKNOWN, "success=True for a start while the motors are off"),
-        (
-            f"if {EITHER}:\n    {REFUSE}\n    return response",
-            "success=False for a stop before the first robot_state",
-        ),
-        (
-            f"if request.data and ({EITHER}):\n    {REFUSE}\n    return response",
-            "the same message in both cases",
-        ),
-        (f"if request.data and ({EITHER}):\n    {REFUSE}", "set success to False and return response"),
-        (f"if request.data and ({EITHER}):\n    {REFUSE}\n    return", "end each path of the callback"),
-        (UNKNOWN + "\n" + OFF.replace("not ", ""), "although robot_state has motors_enabled true"),
-        (
-            UNKNOWN + "\n" + OFF.replace("request.data and ", "self.state and "),
-            "for a stop while the motors are off",
-        ),
-    ],
-)
-def test_the_gap_of_a_refusal_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
-    assert said in gaps.reply("march.py", lines)
-
-
-@pytest.mark.parametrize(
-    ("lines", "said"),
-    [
-        ('return "walk home" if level < 0.20 else "go on"', "check response.available first"),
-        (
-            'if not response.available:\n    return "stop and report"\nreturn "walk home" if level < 0.2 else "go on"',
-            "test math.isnan(level)",
-        ),
-        (
-            'if not response.available or math.isnan(level):\n    return "stop and report"\n'
-            'return "walk home" if level < 0.2 else "go on"',
-            "treat a number above 1 as unknown",
-        ),
-        ('return "stop and report"', "0.0 is a valid charge"),
-        ('print("stop and report")', "end each path with `return`"),
-        ("return levl", "NameError: name 'levl' is not defined in `return levl`"),
-    ],
-)
-def test_the_gap_of_the_planner_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
-    assert said in gaps.reply("careful_planner.py", lines)
-
-
-@pytest.mark.parametrize(
-    ("file", "lines"),
-    [
-        (
-            "march.py",
-            """reason = ""
-if self.state is None:
-    reason = "no state"
-elif not self.state.motors_enabled:
-    reason = "no power"
-if reason and request.data:
-    response.message = reason
-    return response""",
-        ),
-        (
-            "march.py",
-            """if request.data:
-    if self.state is None or not self.state.motors_enabled:
-        response.message = "no power" if self.state else "no state"
-        response.success = False
-        return response""",
-        ),
-        (
-            "careful_planner.py",
-            """if not (response.available and 0 <= level <= 1):
-    return "stop and report"
-return "walk home" if level < 0.2 else "go on\"""",
-        ),
-    ],
-)
-def test_other_lines_fill_a_gap_as_well(gaps: GapTrials, file: str, lines: str) -> None:
-    assert gaps.accept(file, lines).splitlines()[-1].startswith(f"✓ {file}: it ")
+def test_the_gaps_say_what_is_wrong(gaps: GapTrials, trial: Trial) -> None:
+    gaps.require_reply(trial)

@@ -3,19 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 
-import pytest
 from execution import Executed, in_order
-from gap_trials import GapTrials
+from gap_trials import GapTrials, Trial
 
 CHAPTER = "04_your_own_interfaces"
 ACTION = "my_interfaces/action/WalkAhead.action"
-
-
-@pytest.fixture
-def chapter(executed: Callable[[str], Executed]) -> Executed:
-    return executed(CHAPTER)
 
 
 def test_half_of_the_types_that_textbooks_name_do_not_exist(chapter: Executed) -> None:
@@ -158,37 +151,8 @@ def test_an_old_version_is_misread_in_silence_until_both_are_started_again(chapt
     assert 0.05 < float(fixed[1]) <= 0.15
 
 
-@pytest.mark.parametrize(
-    ("lines", "said"),
-    [
-        ("uint16 NONE=0\nuint16 FELL=1\nfloat distance_walked", "line 8: float distance_walked"),
-        ("uint16 error_code\nstring error_msg\nfloat64 distance_walked  # m", "uint16 NONE=0"),
-        ("uint16 NONE 0\nuint16 FELL 1\nuint16 error_code", "put = between name and value"),
-        (
-            "uint16 NONE=0\nuint16 FELL=1\nstring error_msg\nfloat64 distance_walked  # m",
-            "`uint16 error_code`",
-        ),
-        (
-            "uint16 NONE=0\nuint16 FELL=1\nuint16 error_code\nstring error_msg\nfloat64 distance_walked",
-            "distance_walked without a unit",
-        ),
-        (
-            "uint16 NONE=0\nuint16 FELL=1\nuint16 error_code\nstring error_msg\nfloat64 distance_walked  # m\n"
-            "bool success",
-            "one more field: success",
-        ),
-    ],
-)
-def test_the_gap_of_the_definition_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
-    assert said in gaps.reply(ACTION, lines)
-
-
-def test_the_gap_of_the_definition_accepts_another_order_and_comments_above(gaps: GapTrials) -> None:
-    lines = (
-        "# How far, in metres.\nfloat64 distance_walked\n\nuint16 NONE = 0\nuint16 FELL = 1  # on the floor\n"
-        "uint16 error_code\nstring error_msg"
-    )
-    assert f"✓ {ACTION}" in gaps.accept(ACTION, lines)
+def test_the_gaps_say_what_is_wrong(gaps: GapTrials, trial: Trial) -> None:
+    gaps.require_reply(trial)
 
 
 def test_the_gap_of_the_refusal_asks_for_a_build_and_says_what_is_wrong(gaps: GapTrials) -> None:

@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 
 import pytest
 from execution import Executed, in_order, on_paper
-from gap_trials import GapTrials
+from gap_trials import GapTrials, Trial
 
 CHAPTER = "05_executors"
 LONG, SHORT = 2.8, 1.0  # s: a heartbeat that waits for look_around, and one that doesn't
-
-
-@pytest.fixture
-def chapter(executed: Callable[[str], Executed]) -> Executed:
-    return executed(CHAPTER)
 
 
 def gap_in(text: str) -> float:
@@ -146,117 +140,5 @@ def test_spinning_by_hand_beside_a_task_that_awaits_serves_nothing(chapter: Exec
     assert constant > 40
 
 
-GROUPS = "group = {}\nother = {}\nsuper().__init__(beat_group={}, look_group={})"
-EXCLUSIVE = "MutuallyExclusiveCallbackGroup()"
-
-
-@pytest.mark.parametrize(
-    ("lines", "said"),
-    [
-        ("super().__init__()", "a gap of 3."),
-        (GROUPS.format(EXCLUSIVE, EXCLUSIVE, "group", "group"), "one exclusive group for both"),
-        ("self.group = " + EXCLUSIVE, "ended at once with exit status 1"),
-        ("super().__init__(" + EXCLUSIVE + ")\nself.groups = 1 / 0", "ZeroDivisionError"),
-    ],
-)
-def test_the_gap_of_the_groups_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
-    assert said in gaps.reply("two_groups.py", lines)
-
-
-WAIT = "future = Future()\ntimer = self.create_timer(seconds, {}{})\n{}\nself.destroy_timer(timer)"
-OWN, DONE = ", callback_group=self.waiting", "lambda: future.set_result(None)"
-
-
-@pytest.mark.parametrize(
-    ("lines", "said"),
-    [
-        ("import time\ntime.sleep(seconds)", "a blocking call occupies the only thread"),
-        ("import asyncio\nawait asyncio.sleep(seconds)", "asyncio's event loop doesn't run here"),
-        (WAIT.format(DONE, "", "await future"), "give the timer callback_group=self.waiting"),
-        (WAIT.format(DONE, OWN, "pass"), "await the future before you return"),
-        (WAIT.format("future.set_result", OWN, "await future"), "TypeError"),
-        (WAIT.format(DONE, OWN, "await futur"), "in `await futur`"),
-        ("await Future()", "let a timer complete the future"),
-        (WAIT.format(DONE, OWN, "await future").rpartition("\n")[0], "each wait leaves one more timer"),
-        (
-            WAIT.format(DONE, OWN, "await future").replace("self.destroy_timer(timer)", "timer.cancel()"),
-            "cancelled",
-        ),
-        (
-            "import threading\nfuture = Future()\n"
-            "threading.Timer(seconds, lambda: future.set_result(None)).start()\nawait future",
-            "a thread of your own",
-        ),
-        (
-            "import asyncio\nimport time\nuntil = time.monotonic() + seconds\n"
-            "while time.monotonic() < until:\n    await asyncio.sleep(0)",
-            "a loop keeps the processor busy",
-        ),
-    ],
-)
-def test_the_gap_of_the_wait_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
-    assert said in gaps.reply("awaiting.py", lines)
-
-
-ASK = (
-    "future = self.client.call_async(Trigger.Request())\nlimit = self.create_timer(seconds, {}{})\n"
-    "position = {}\nself.destroy_timer(limit)\n{}"
-)
-ASKING, CANCEL, RETURN = ", callback_group=self.asking", "future.cancel", "return position"
-
-
-@pytest.mark.parametrize(
-    ("lines", "said"),
-    [
-        ("return await self.client.call_async(Trigger.Request())", "let a timer call future.cancel"),
-        (ASK.format(CANCEL, "", "await future", RETURN), "give the timer callback_group=self.asking"),
-        ("return self.client.call(Trigger.Request())", "report did not respond within 3 s"),
-        (
-            ASK.format(CANCEL, ASKING, "await future", "return None"),
-            "let ask() return the value of `await future`",
-        ),
-        (
-            ASK.format(CANCEL, ASKING, "future.result()", RETURN),
-            "let ask() return the value of `await future`",
-        ),
-        (ASK.format("self.client.cancel", ASKING, "await future", RETURN), "AttributeError"),
-        (
-            "if not self.client.wait_for_service(seconds):\n    return None\n"
-            "return await self.client.call_async(Trigger.Request())",
-            "report did not respond within",
-        ),
-        (
-            ASK.format(CANCEL, ASKING, "await future", RETURN).replace("self.destroy_timer(limit)\n", ""),
-            "each wait leaves one more timer",
-        ),
-    ],
-)
-def test_the_gap_of_the_question_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
-    assert said in gaps.reply("report_fixed.py", lines)
-
-
-@pytest.mark.parametrize(
-    ("file", "lines"),
-    [
-        ("two_groups.py", "super().__init__(beat_group=MutuallyExclusiveCallbackGroup())"),
-        (
-            "two_groups.py",
-            "from rclpy.callback_groups import ReentrantCallbackGroup\n"
-            "both = ReentrantCallbackGroup()\nsuper().__init__(both, both)",
-        ),
-        (
-            "awaiting.py",
-            "done = Future()\n\n\ndef finish():\n    self.destroy_timer(timer)\n    done.set_result(True)\n\n\n"
-            "timer = self.create_timer(seconds, finish, self.waiting)\nawait done",
-        ),
-        ("report_fixed.py", ASK.format("lambda: future.set_result(None)", ASKING, "await future", RETURN)),
-        (
-            "report_fixed.py",
-            "future = self.client.call_async(Trigger.Request())\n"
-            "limit = self.create_timer(seconds, lambda: future.cancel(), callback_group=self.asking)\n"
-            "try:\n    return await future\nfinally:\n    limit.destroy()",
-        ),
-    ],
-)
-def test_the_gaps_accept_other_correct_lines(gaps: GapTrials, file: str, lines: str) -> None:
-    assert f"✓ {file}" in gaps.accept(file, lines)
+def test_the_gaps_say_what_is_wrong(gaps: GapTrials, trial: Trial) -> None:
+    gaps.require_reply(trial)

@@ -3,18 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 
-import pytest
 from execution import Executed, in_order, number, numbers
-from gap_trials import GapTrials
+from gap_trials import GapTrials, Trial
 
 CHAPTER = "09_arms"
-
-
-@pytest.fixture
-def chapter(executed: Callable[[str], Executed]) -> Executed:
-    return executed(CHAPTER)
 
 
 def test_the_message_and_the_limits_are_shown(chapter: Executed) -> None:
@@ -145,139 +138,8 @@ def test_a_cancel_that_puts_the_cup_down_does_not(chapter: Executed) -> None:
     assert in_order(chapter.html("careful-draw"), "<title>A cancel while the hand holds a cup", "CANCELED")
 
 
-POINTS = "points = {}\nfor moment in sorted({*left, *right}):\n"
-LATER = "    if moment > now:\n"
-BOTH = "[place_at(left, moment), place_at(right, moment)]\n"
+def test_the_gaps_say_what_is_wrong(gaps: GapTrials, trial: Trial) -> None:
+    gaps.require_reply(trial)
 
 
-@pytest.mark.parametrize(
-    ("lines", "said"),
-    [
-        (f"{POINTS}{LATER}        points[moment] = {BOTH}return points", "count their times from `now`"),
-        (
-            f"{POINTS}{LATER}        points[moment - now] = {BOTH.replace('moment)', 'moment - now)')}return points",
-            "The plans have their own clock: place_at(plan, moment)",
-        ),
-        (f"{POINTS}    points[moment - now] = {BOTH}return points", "needs a point"),
-        (
-            f"{POINTS}    if moment >= now:\n        points[moment - now] = {BOTH}return points",
-            "needs a point",
-        ),
-        (
-            f"{POINTS.replace('sorted({*left, *right})', 'left')}{LATER}        points[moment - now] = {BOTH}"
-            "return points",
-            "needs a point",
-        ),
-        (
-            f"{POINTS.replace('sorted({*left, *right})', '[*left, *right]')}{LATER}"
-            f"        points[moment - now] = {BOTH}return points",
-            "take the moments in order",
-        ),
-        (f"{POINTS}{LATER}        points[moment - now] = {BOTH}", "end with `return` and a dict"),
-        (
-            f"{POINTS}{LATER}        points[moment - now] = [left[moment], right[moment]]\nreturn points",
-            "KeyError",
-        ),
-        (
-            f"{POINTS}{LATER}        points[moment - now] = [place_at(left, moment)]\nreturn points",
-            "each point needs the positions of both joints",
-        ),
-    ],
-)
-def test_the_gap_of_the_two_plans_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
-    assert said in gaps.reply("merged.py", lines)
-
-
-PATH = "if error > PATH_TOLERANCE:\n    return OFF_PATH\n"
-LEFT = "if left > 0:\n    return GO_ON\n"
 THERE = "if error <= GOAL_TOLERANCE:\n    return THERE\n"
-LATE = "return MISSED if left < -PATIENCE else GO_ON"
-
-
-@pytest.mark.parametrize(
-    ("lines", "said"),
-    [
-        (f"{PATH}{THERE}{LATE}", "only when `left` is not above 0"),
-        (f"{LEFT}{PATH}{THERE}{LATE}", "ends the goal even while time is left"),
-        (f"if error > GOAL_TOLERANCE:\n    return OFF_PATH\n{LEFT}return THERE", "counts only at the end"),
-        (f"{PATH}{LEFT}{THERE}return MISSED", "PATIENCE seconds more"),
-        (
-            f"{PATH}{LEFT}if left < -PATIENCE:\n    return MISSED\n{THERE}return GO_ON",
-            "before you return MISSED",
-        ),
-        (f"{PATH}{LEFT}{THERE}return GO_ON", "PATIENCE is over"),
-        (f"{LEFT}{THERE}{PATH}{LATE}", "ends the goal even while time is left"),
-        (f"{PATH}{LEFT}{THERE}", "end each path with `return`"),
-        (f"{PATH}{LEFT}{THERE}return MISSED if late else GO_ON", "NameError"),
-    ],
-)
-def test_the_gap_of_the_tolerances_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
-    assert said in gaps.reply("tolerances.py", lines)
-
-
-@pytest.mark.parametrize(
-    ("lines", "said"),
-    [
-        (
-            "hand.open()\nhand.lower()\ngoal_handle.canceled()\nreturn result",
-            "lower the hand before you open it",
-        ),
-        ("hand.open()\ngoal_handle.canceled()\nreturn result", "call hand.lower() first"),
-        ("hand.lower()\nhand.open()\ngoal_handle.canceled()\nreturn result", "if hand.lower():"),
-        ("hand.lower()\ngoal_handle.canceled()\nreturn result", "call hand.open()"),
-        (
-            "goal_handle.canceled()\nif hand.lower():\n    hand.open()\nreturn result",
-            "CANCELED says that the robot is safe",
-        ),
-        ("if hand.lower():\n    hand.open()\nreturn result", "without a terminal call rclpy aborts the goal"),
-        ("if hand.lower():\n    hand.open()\ngoal_handle.abort()\nreturn result", "and with no other call"),
-        (
-            "if hand.lower():\n    hand.open()\n    goal_handle.canceled()\nelse:\n    goal_handle.abort()\n"
-            "return result",
-            "even if the hand keeps the cup",
-        ),
-        (
-            "if hand.lower():\n    hand.open()\n    goal_handle.canceled()\nreturn result",
-            "without a terminal call rclpy aborts",
-        ),
-        ("if hand.lower():\n    hand.open()\ngoal_handle.canceled()", "end with `return result`"),
-        ("if self.hand.lower():\n    hand.open()\ngoal_handle.canceled()\nreturn result", "NameError"),
-    ],
-)
-def test_the_gap_of_the_cancel_says_what_is_wrong(gaps: GapTrials, lines: str, said: str) -> None:
-    assert said in gaps.reply("put_down.py", lines)
-
-
-@pytest.mark.parametrize(
-    ("file", "lines"),
-    [
-        (
-            "tolerances.py",
-            "if error > PATH_TOLERANCE:\n    return OFF_PATH\nif left <= 0 and error <= GOAL_TOLERANCE:\n"
-            "    return THERE\nif left + PATIENCE < 0:\n    return MISSED\nreturn GO_ON",
-        ),
-        (
-            "put_down.py",
-            "stands = hand.lower()\nif stands is True:\n    hand.open()\ngoal_handle.canceled()\nreturn result",
-        ),
-        (
-            "put_down.py",
-            "result.max_grasp_force = hand.force\nx, y, height = hand.cup\n"
-            "if hand.lower() and hand.cup[2] < height:\n    hand.open()\n"
-            "else:\n    result.error_msg = 'the hand keeps the cup'\ngoal_handle.canceled()\nreturn result",
-        ),
-        (
-            "merged.py",
-            "moments = [moment for moment in sorted(left | right) if moment > now]\n"
-            "return {at - now: (place_at(left, at), place_at(right, at)) for at in moments}",
-        ),
-        (
-            "merged.py",
-            "points = {}\nfor moment in sorted(list(left) + list(right)):\n    if not moment <= now:\n"
-            "        points[round(moment - now, 3)] = [place_at(plan, moment) for plan in (left, right)]\n"
-            "return points",
-        ),
-    ],
-)
-def test_the_gaps_accept_other_correct_lines(gaps: GapTrials, file: str, lines: str) -> None:
-    assert f"✓ {file}" in gaps.accept(file, lines)

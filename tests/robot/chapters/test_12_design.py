@@ -2,17 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-import pytest
 from execution import Executed, in_order, numbers
 
 CHAPTER = "12_design"
-
-
-@pytest.fixture
-def chapter(executed: Callable[[str], Executed]) -> Executed:
-    return executed(CHAPTER)
 
 
 def test_the_sample_designs_are_drawn_and_the_marks_add_up(chapter: Executed) -> None:

@@ -3,8 +3,9 @@
 import pytest
 from rich.console import Console
 
-from bench.robot import run_trials, servo, soak
+from bench.robot import run_trials, walking
 from bench.robot.table import bench_robot, table_of
+from bench.robot.walking import Servo, Soak
 
 
 def test_short_trials_of_stops_and_reaches_meet_their_references():
@@ -25,9 +26,9 @@ def test_speed_is_measured_for_bare_physics_and_with_the_controller():
     assert titles == ["speed, bare mj_step", "speed, standing", "speed, walking"]
 
 
-@pytest.mark.parametrize("style", servo.STYLES)
+@pytest.mark.parametrize("style", Servo.STYLES)
 def test_a_students_controller_reaches_its_goal(style):
-    outcome = servo.run((style, 20, (0.5, -0.3, 1.2)))
+    outcome = Servo().run((style, 20, (0.5, -0.3, 1.2)))
     assert outcome.success, outcome.note
     assert outcome.values["duration_s"] < 15
 
@@ -39,15 +40,15 @@ def test_an_unknown_trial_is_refused_with_the_known_ones():
 
 def test_a_soak_names_the_command_at_its_last_fall(monkeypatch):
     commands, falls = iter(["goal", "velocity", "stop"]), iter([False, True, False])
-    monkeypatch.setattr(soak, "_command_at_random", lambda humanoid, chance: next(commands))
-    monkeypatch.setattr(soak, "has_fallen", lambda humanoid: next(falls))
-    monkeypatch.setattr(soak, "simulate", lambda humanoid, seconds: [humanoid.step() for _ in range(200)])
-    outcome = soak.run((300, 2.5))
-    assert outcome.note == "1 falls, the last at velocity"
+    monkeypatch.setattr(walking, "command_at_random", lambda humanoid, chance: next(commands))
+    monkeypatch.setattr(walking, "has_fallen", lambda humanoid: next(falls))
+    monkeypatch.setattr(walking, "simulate", lambda humanoid, seconds: [humanoid.step() for _ in range(200)])
+    outcome = Soak().run((300, 2.5))
+    assert outcome.note == "1 falls in 3 commands, the last at velocity"
 
 
 def test_the_table_is_followed_by_the_runs_that_failed(monkeypatch):
-    monkeypatch.setattr(servo, "TIME_LIMIT", 0.1)
+    monkeypatch.setattr(walking, "SERVO_TIME_LIMIT", 0.1)
     console = Console(record=True, width=200)
     bench_robot(console, ["servo"], quick=True, jobs=1)
     printed = console.export_text()

@@ -20,9 +20,8 @@ SPINNING = ('"/x/rclpy/executors.py", line 7 in spin_once', '"/tmp/work/status.p
 
 
 def robot(t: float, *, motors: bool = True, mode: int = RobotState.STANDING, **more: float) -> Any:
-    numbers = (
-        dict.fromkeys(("x", "y", "z", "yaw", "speed", "turn_rate", "steps", "lag"), 0) | {"up": 1} | more
-    )
+    zeros = dict.fromkeys(("x", "y", "yaw", "speed", "turn_rate", "steps", "lag"), 0)
+    numbers = {**zeros, "z": 0.6, "up": 1, **more}
     return ev.RobotTruth(t=t, simulated=t, mode=mode, motors_enabled=motors, battery=1, **numbers)
 
 
