@@ -37,7 +37,7 @@ ANSWERS = (
     *("service_answered", "goal_answered", "cancel_answered", "result_received", "reply_sent"),
     "arm_reported",
 )
-MOST_PLACES = 20  # events of a transcript that are changed for one check; other checks get other events
+MOST_PLACES = 40  # events of a transcript that are changed for one check; other checks get other events
 DELAYS = (0.4, 2.0, 30.0)  # s, taken in turn
 # Events that a program causes by itself. Without one of them a record is that of another program, maybe a correct one.
 PROGRAM_EVENTS = (
