@@ -44,6 +44,9 @@ PICTURE = re.compile(
 # The only places where a picture gets its frame, and what they require of those who draw.
 FRAMES = {
     "lab/pictures/picture.py": 'alt="{escape(words)}"',
+    "autograder/report/notebook_table.py": 'alt="{}"',
+    "autograder/report/templates/self_check.html": "{{ films[verdict.id] }}",  # a frame of notebook_table
+    "autograder/report/templates/work.html": 'alt="The robot, with the events of the run as captions',
     "ros_runtime/drawing/svg.py": "<desc>{escape(words)}</desc>",
     "autograder/classroom/pages/plots.py": "<desc>{escape(words)}</desc>",
     "autograder/classroom/book/still_widgets.py": 'alt="{words}"',
@@ -86,7 +89,7 @@ def drawings() -> Iterator[tuple[str, str]]:
     arrows = [Arrow(at, "a", "b", "x", kind) for at, kind in enumerate(("request", "answer", "message"))]
     yield "sequence", sequence_svg([*arrows, Arrow(3.0, "a", "a", "a note")], title="t")
     rows = [Row("x", "T", [End("a", broken=True)], [End("b")], fill) for fill in FILLS.values()]
-    yield "columns", columns_svg(rows, headings=("l", "m", "r"), title="t", words="w")
+    yield "columns", columns_svg(rows, headings=("l", "m", "r"), title="t", words="w", broken_means="b")
     log.clear()
     log.append(GoalSent(t=1.0, goal="go 1", action="go", request=WalkTo.Goal()))
     log.append(GoalAnswered(t=1.1, goal="go 1", accepted=True))

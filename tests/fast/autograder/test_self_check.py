@@ -65,9 +65,11 @@ def test_a_notebooks_self_check_draws_what_failed_and_writes_the_page(
         watcher.on_evidence(result.checks[0], [run])
         return result
 
-    table = SimpleNamespace(add=lambda verdict: None, draw=lambda verdict, runs: drawn.append(verdict.id))
+    table = SimpleNamespace(
+        add=lambda verdict: None, draw=lambda verdict, runs: drawn.append(verdict.id), evidence={}
+    )
     monkeypatch.setattr("rich.console._is_jupyter", lambda: True)
-    monkeypatch.setattr(module, "_save_notebook", lambda: None)
+    monkeypatch.setattr(module, "save_notebook", lambda: None)
     monkeypatch.setattr(module, "_notebook_table", lambda exercise: table)
     monkeypatch.setattr(module, "grade", grade)
     monkeypatch.setattr(module, "store_check", lambda *entry: None)
