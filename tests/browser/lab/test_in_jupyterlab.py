@@ -22,7 +22,7 @@ import psutil
 import pytest
 from nbformat.v4 import new_code_cell, new_notebook
 from PIL import Image
-from playwright.sync_api import Locator, Page, sync_playwright
+from playwright.sync_api import Locator, Page, expect, sync_playwright
 
 from accessibility import require_accessible, violations
 from autograder.classroom.archives.student_bundle import TOP, write_bundle
@@ -117,7 +117,7 @@ def test_from_the_start_page_to_a_robot_that_walks(page: Page) -> None:
     page.get_by_role("heading", name="1 · The robot and its graph").click()
     page.keyboard.press("Shift+Enter")
     page.keyboard.press("Shift+Enter")
-    page.locator(PICTURE).wait_for()
+    page.get_by_title("The robot: STANDING").wait_for()
     standing = seen(page)
     assert len(np.unique(standing.reshape(-1, 3), axis=0)) > 500  # a robot on a floor, not an empty frame
 
@@ -151,7 +151,7 @@ def test_the_robot_is_shown_beside_the_notebook_that_has_it(page: Page, folder: 
     run_first_cell(page, address, "second")
     page.get_by_text("The robot of first.ipynb has ended").wait_for()
     page.get_by_text("STANDING at").wait_for()
-    assert panels(page).count() == 1
+    expect(panels(page)).to_have_count(1)
 
     page.get_by_role("menuitem", name="Kernel", exact=True).click()
     page.get_by_text("Restart Kernel…", exact=True).first.click()
@@ -160,7 +160,8 @@ def test_the_robot_is_shown_beside_the_notebook_that_has_it(page: Page, folder: 
     ended.wait_for()
     run_first_cell(page, address, "second")
     ended.wait_for(state="hidden")
-    assert panels(page).count() == 1
+    page.get_by_text("STANDING at").wait_for()
+    expect(panels(page)).to_have_count(1)
 
 
 def test_the_first_page_shows_what_is_done_and_a_first_step(page: Page) -> None:
@@ -275,8 +276,10 @@ def test_the_keyboard_alone_leads_from_the_start_page_to_a_handed_in_exercise(
     run_cell(page, 'checked = self_check("patterns")')
     page.get_by_text("7 of 7 points").wait_for()
 
+    page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
     press("b")  # a cell below
     press("Enter")
+    page.get_by_text("Mode: Edit").wait_for()
     page.keyboard.type("!course submit patterns")
     press("Shift+Enter")
     page.get_by_text("Next: hand in what is in hand_in/").wait_for()
