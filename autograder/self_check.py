@@ -26,8 +26,12 @@ if TYPE_CHECKING:
     from autograder.recording.recorder import Recorder
     from autograder.report.notebook_table import NotebookTable
 
-# What JupyterLab's own button does; other editors ignore it.
-_SAVE = "document.querySelector('.jp-NotebookPanel:not(.lm-mod-hidden) [data-command=\"docmanager:save\"]')?.click()"
+# What JupyterLab's own button does, which then takes the focus; other editors ignore it.
+_SAVE = """{
+const focused = document.activeElement;
+document.querySelector('.jp-NotebookPanel:not(.lm-mod-hidden) [data-command="docmanager:save"]')?.click();
+setTimeout(() => focused.focus({preventScroll: true}));
+}"""
 NOTEBOOK_WIDTH = 104  # characters; fits into JupyterLab with its file browser on a screen of 1280 pixels
 
 
