@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from string import Template
 
-# What the button with the disk does.
-_SAVE = "document.querySelector('.jp-NotebookPanel:not(.lm-mod-hidden) [data-command=\"docmanager:save\"]')?.click()"
+# What the button with the disk does, which then takes the focus.
+_SAVE = """{
+const focused = document.activeElement;
+document.querySelector('.jp-NotebookPanel:not(.lm-mod-hidden) [data-command="docmanager:save"]')?.click();
+setTimeout(() => focused.focus({preventScroll: true}));
+}"""
 # A side bar closes a tab only if both events of the pointer lie on the cross of the tab.
 _CLOSE = Template("""
 const old = [...document.querySelectorAll('.jp-SideBar.jp-mod-right .lm-TabBar-tab')].find(
