@@ -89,7 +89,7 @@ def test_from_the_start_page_to_a_robot_that_walks(page: Page) -> None:
     page.get_by_role("heading", name="1 · The robot and its graph").click()
     page.keyboard.press("Shift+Enter")
     page.keyboard.press("Shift+Enter")
-    page.locator(PICTURE).wait_for()
+    page.get_by_text("STANDING at").wait_for()
     standing = seen(page)
     assert len(np.unique(standing.reshape(-1, 3), axis=0)) > 500  # a robot on a floor, not an empty frame
 
