@@ -16,6 +16,7 @@ BEAT_PERIOD = 1.0  # s between two texts
 SILENCE = 8  # s without a text, after which the panel shows that nothing draws into it any more
 _STYLE = f"""<style>
 .course-live img {{ width: 100%; height: auto; }}
+.course-live:not(:has(.course-ended)) img {{ visibility: hidden; }}
 .course-live .widget-html-content {{ white-space: normal; line-height: 1.4; }}
 .course-live .course-ended {{ visibility: hidden; animation: course-ended 0s {SILENCE}s forwards; font-weight: bold; }}
 @keyframes course-ended {{ to {{ visibility: visible; }} }}

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import signal
+from contextlib import suppress
 
 import psutil
 
@@ -61,19 +63,21 @@ def start_robot(scene: str = "flat") -> None:
 def _end_robot_of_another_notebook() -> str:
     """End the robot that another notebook of the lab has started; return a sentence about it, "" if there is none."""
     other = robot_of_another_notebook()
-    if other is None:
+    if other is None or not _is_robot(other.pid):
         return ""
-    try:
-        robot = psutil.Process(other.pid)
-        if "robot_sim" not in robot.cmdline():  # it has ended, and another process has its id
-            return ""
-        robot.send_signal(signal.SIGINT)
-        robot.wait(GRACE)
-    except psutil.NoSuchProcess:
-        return ""
-    except psutil.TimeoutExpired:
-        robot.kill()
+    with suppress(ProcessLookupError):
+        os.kill(other.pid, signal.SIGINT)
+        if not becomes_true(lambda: not _is_robot(other.pid), GRACE):
+            os.kill(other.pid, signal.SIGKILL)
     return f" The robot of {other.notebook} has ended: you have one robot at a time."
+
+
+def _is_robot(pid: int) -> bool:
+    """Whether this process is a robot that runs; another process can have the id of one that has ended."""
+    try:
+        return "robot_sim" in psutil.Process(pid).cmdline()
+    except psutil.NoSuchProcess:  # or its parent has not asked for its exit status yet
+        return False
 
 
 def robot_is_running() -> bool:

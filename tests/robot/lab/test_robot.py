@@ -152,17 +152,15 @@ def test_another_notebook_of_the_lab_takes_the_robot_over(kernel: Kernel, own_ke
             lab.stop_everything()
         """)
     assert "has ended" not in kernel.run("lab.start_robot()")
-    robots = kernel.children()
     assert "The robot of first.ipynb has ended" in own_kernel.run("lab.start_robot()")
-    _, alive = psutil.wait_procs(robots, timeout=0)
-    assert len(robots) == 1
-    assert alive == []
+    end = "print(lab.running.robot._robot.exit_status)"
+    assert kernel.run(end) == "0\n"
     with pytest.raises(
         CellError, match=r"ended when second.ipynb started one: .* lab.start_robot\(\) brings"
     ):
         kernel.run("import time; time.sleep(1.2); lab.pose()")
     assert "The robot of second.ipynb has ended" in kernel.run("lab.start_robot(); lab.pose()")
-    assert own_kernel.children() == []
+    assert own_kernel.run(end) == "0\n"
 
 
 def _await_output(kernel: Kernel, text: str, timeout: float = 30.0) -> None:
