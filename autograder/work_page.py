@@ -94,7 +94,7 @@ def _shown(grade: Grade, recorder: Recorder) -> Shown:
         recordings = [Recording.read(path) for path in sorted(folder.glob(f"*{SUFFIX}"))]
         most = max(recordings, key=_motion, default=None)
         if most is None or _motion(most) == 0:
-            return _drawn(recorder, "No robot moves in this exercise")
+            return _drawn(recorder, "No robot moves in these checks")
         speed = max(1, int(np.ceil(most.end / FILM_DURATION)))
         file = folder / "film.webp"
         try:

@@ -72,7 +72,7 @@ def test_a_long_run_is_played_faster(tmp_path: Path, monkeypatch: pytest.MonkeyP
 @pytest.mark.parametrize("seconds", [0.0, FALL])
 def test_where_no_robot_moves_the_messages_are_drawn(seconds: float, tmp_path: Path) -> None:
     html = page_of(tmp_path, walk(postures=simulated(seconds=seconds)[0] if seconds else ()))
-    assert "No robot moves in this exercise, so there is no film." in html
+    assert "No robot moves in these checks, so there is no film." in html
     assert "<svg" in html
     assert "<img" not in html
 
