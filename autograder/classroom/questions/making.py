@@ -24,6 +24,7 @@ from autograder.engine.verdict import CheckVerdict
 MOST_CHANGES = 8  # changed copies that are graded for each kind of question
 MOST_RUNS = 3  # scenarios of the traced copy
 ENOUGH_FAILED = 2  # failed checks that a key names; after them a changed copy is not graded further
+LONGEST_TEXT = 250  # characters of what a check expected or observed
 _CLAUSE = re.compile(r"(?:^clauses? |”\), )(\d+)")  # in a verdict's promise
 _Item = TypeVar("_Item")
 
@@ -156,4 +157,10 @@ def _seen(verdict: CheckVerdict) -> str:
     numbers = _CLAUSE.findall(verdict.promise)
     clauses = f"clause{'s' if numbers[1:] else ''} {', '.join(numbers)}: " if numbers else ""
     when = f" (at {verdict.robot_time:.1f} s)" if verdict.robot_time is not None else ""
-    return f"{clauses}“{verdict.title}”: expected {verdict.expected}; observed {verdict.observed}{when}."
+    observed, *steps = verdict.observed.partition("; steps: ")
+    seen = f"expected {_cut(verdict.expected)}; observed {_cut(observed)}{''.join(steps)}{when}."
+    return f"{clauses}“{verdict.title}”: {seen}"
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= LONGEST_TEXT else f"{text[:LONGEST_TEXT]}…"

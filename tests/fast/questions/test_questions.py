@@ -310,6 +310,18 @@ def test_only_changes_that_a_check_sees_are_asked(grader):
     assert "1 of 3 questions" in sheet().note
 
 
+def test_key_quotes_a_long_observation_in_part_and_its_steps_whole():
+    verdict = verdict_on(
+        load_exercise("motor_services", hidden=False).checks[0],
+        "failed",
+        expected="an answer",
+        observed=f"{'9' * 400}; steps: ask number 1",
+        robot_time=3.14,
+    )
+    key = making._seen(verdict)
+    assert f"{'9' * 250}…; steps: ask number 1 (at 3.1 s)." in key
+
+
 def test_a_change_after_which_nothing_works_is_not_asked(grader):
     fails, sheet = grader
     fails["time.sleep(2.5)"] = "server_appears"
