@@ -7,11 +7,11 @@ from typing import Any
 import pytest
 from action_msgs.msg import GoalStatus
 from builtin_interfaces.msg import Duration
-from records import failure_of, run_of
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from autograder.authoring.evidence import events as ev
 from humanoid_interfaces.action import MoveArm
+from records import failure_of, run_of
 from robot_sim.arms.joint_trajectory import MOVABLE
 from robot_sim.humanoid import Humanoid
 from solutions.move_arm import ends, motion, reports

@@ -8,7 +8,6 @@ from typing import Any
 import pytest
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue, SetParametersResult
 from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
-from records import answered, asked, failure_of, robot, run_of, said
 
 from autograder.authoring.diagnosis.readiness import require_ready
 from autograder.authoring.evidence import events as ev
@@ -16,6 +15,7 @@ from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import CannotBeJudged
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.msg import BalanceGains, RobotState
+from records import answered, asked, failure_of, robot, run_of, said
 
 MODEL, GAINS = (exercise_module("balance_controller", name) for name in ("model", "gains"))
 DEFAULTS = GAINS.DEFAULTS

@@ -6,7 +6,6 @@ from typing import Any
 
 import pytest
 from geometry_msgs.msg import Vector3, Vector3Stamped
-from records import answered, asked, failure_of, robot, run_of
 from std_msgs.msg import Empty, Header
 from std_srvs.srv import Trigger
 
@@ -14,6 +13,7 @@ from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.msg import RobotState
+from records import answered, asked, failure_of, robot, run_of
 
 MODEL = exercise_module("calibration", "model")
 TRUTH = exercise_module("calibration", "truth")

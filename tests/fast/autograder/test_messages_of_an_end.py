@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from records import answered, asked, failure_of, given_up, run_of, said, stack
 from sensor_msgs.msg import BatteryState
 
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.requirements.standard import exits_with_status_0
+from records import answered, asked, failure_of, given_up, run_of, said, stack
 
 NO_RETURN = said(
     "Traceback (most recent call last):",

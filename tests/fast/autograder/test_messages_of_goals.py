@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from records import SPINNING, failure_of, given_up, robot, run_of, said, stack
 
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.goal import ABORTED, CANCELED, SUCCEEDED
 from autograder.authoring.walking import truth as walking_truth
 from humanoid_interfaces.action import WalkTo
+from records import SPINNING, failure_of, given_up, robot, run_of, said, stack
 from ros_runtime.message_constants import GoalStatus
 
 IN_EXECUTE = '  File "/tmp/work/walk.py", line 97, in execute'

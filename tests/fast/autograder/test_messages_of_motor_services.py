@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from records import answered, asked, failure_of, robot, run_of
 from std_srvs.srv import SetBool, Trigger
 
 from autograder.authoring.evidence import events as ev
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.msg import RobotState
+from records import answered, asked, failure_of, robot, run_of
 
 MOTORS = exercise_module("motor_services", "model")
 

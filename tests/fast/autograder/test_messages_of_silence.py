@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from records import PEERS, SPINNING, asked, failure_of, given_up, run_of, stack
 from std_srvs.srv import Trigger
 
 from autograder.authoring.diagnosis.readiness import require_ready
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.requirements.client_checks import require_end
+from records import PEERS, SPINNING, asked, failure_of, given_up, run_of, stack
 
 
 @pytest.mark.parametrize(

@@ -7,13 +7,13 @@ from typing import Any
 import pytest
 from action_msgs.msg import GoalStatus
 from geometry_msgs.msg import Point, PoseStamped
-from records import failure_of, robot, run_of
 
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import CannotBeJudged
 from autograder.engine.exercise import load_exercise
 from humanoid_interfaces.action import PickAndPlace
+from records import failure_of, robot, run_of
 
 EXERCISE = load_exercise("pick_and_place", hidden=True)
 CHECKS = {check.id: check for check in EXERCISE.checks}

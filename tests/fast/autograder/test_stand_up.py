@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 from action_msgs.msg import GoalStatus
-from records import failure_of, robot, run_of
 
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.action import StandUp
 from humanoid_interfaces.msg import RobotState
+from records import failure_of, robot, run_of
 
 MODEL = exercise_module("stand_up", "model")
 ACCEPTED, LEAN, LET_GO = 2.0, 1.5, 5.0  # s
