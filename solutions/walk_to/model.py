@@ -37,7 +37,7 @@ refuses_cancels = obligation(5, of=goals, see="06_walk_to_a_pose#small-intro")(c
 goes_on = obligation(5, of=goals)(ends.goes_on)
 comes_near = obligation(6, of=goals, see="01_robot_and_graph#frames-intro")(ends.comes_near)
 turns_the_short_way = obligation(6, of=goals)(walks.turns_the_short_way)
-obeys_max_velocity = obligation(7, of=goals, see="01_robot_and_graph#walk-intro")(walks.obeys_max_velocity)
+obeys_max_velocity = obligation(7, of=goals, see="06_walk_to_a_pose#show-intro")(walks.obeys_max_velocity)
 walks_at_its_own_velocity = obligation(7, of=goals, see="01_robot_and_graph#walk-intro")(
     walks.walks_at_its_own_velocity
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ TENTHS = [f"{10 * tenth}–{10 * tenth + 9}" for tenth in range(10)]
 FULL = "100"
 NEEDS_HELP = 0.6  # share of the points; submissions with less are listed
 MAX_TOPICS = 3  # listed for one submission
+_LESSON = re.compile(r"Read (chapters/[^,]+, “.+”)\.$")  # at the end of a failed check's advice
 
 
 @dataclass(frozen=True)
@@ -31,6 +33,19 @@ class HardCheck:
     def share_failed(self) -> float:
         """The share (0..1) of failures among the submissions on which the check was run."""
         return self.failed / max(1, self.graded - self.not_run)
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """A cell of a chapter to which failed checks refer, and the students who failed one, by exercise."""
+
+    words: str
+    students: Mapping[str, set[str]]
+
+    @property
+    def count(self) -> int:
+        """The number of students who failed a check of this lesson in any exercise."""
+        return len(set[str]().union(*self.students.values()))
 
 
 @dataclass(frozen=True)
@@ -89,6 +104,17 @@ def exercise_figures(grades: Sequence[Grade]) -> list[ExerciseFigures]:
     return figures
 
 
+def lessons_to_repeat(grades: Sequence[Grade]) -> list[Lesson]:
+    """Return the lessons of all failed checks, those of the most students first."""
+    students: dict[str, dict[str, set[str]]] = {}
+    for grade in grades:
+        for verdict in grade.checks if grade.status == "graded" else ():
+            if verdict.status == "failed" and (lesson := _LESSON.search(verdict.help)):
+                students.setdefault(lesson[1], {}).setdefault(grade.exercise, set()).add(grade.student)
+    lessons = [Lesson(words, theirs) for words, theirs in students.items()]
+    return sorted(lessons, key=lambda lesson: (-lesson.count, lesson.words))
+
+
 def who_needs_help(grades: Sequence[Grade]) -> list[NeedsHelp]:
     """Return the graded submissions with less than NEEDS_HELP of the points, in order of their share of the points."""
     few = [grade for grade in grades if grade.status == "graded" and share(grade) < NEEDS_HELP]
@@ -102,8 +128,8 @@ def cause(grade: Grade) -> str:
 
 
 def share(grade: Grade) -> float:
-    """Return the share of the points that a grade has, 0..1."""
-    return min(1.0, max(0.0, (grade.score or 0) / max(1, grade.max_score)))
+    """Return the share of the points that a grade has without a deduction for late work, 0..1."""
+    return min(1.0, max(0.0, (grade.earned or 0) / max(1, grade.max_score)))
 
 
 def _bin(part: float) -> str:

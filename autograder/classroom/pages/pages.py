@@ -10,7 +10,13 @@ from urllib.parse import quote
 from markupsafe import Markup
 
 from autograder.classroom.nbgrader_bridge.generated_cells import HIDDEN, cell_names, hidden_help
-from autograder.classroom.pages.figures import NEEDS_HELP, cause, exercise_figures, who_needs_help
+from autograder.classroom.pages.figures import (
+    NEEDS_HELP,
+    cause,
+    exercise_figures,
+    lessons_to_repeat,
+    who_needs_help,
+)
 from autograder.classroom.pages.plots import bars_svg
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.rendering import drawn, write_html
@@ -18,6 +24,7 @@ from autograder.report.rendering import drawn, write_html
 CLASS_PAGE = "class.html"
 INDEX = "index.html"  # the page that lists a student's exercises
 FOR_STUDENTS, FOR_INSTRUCTOR = "pages", "instructor"
+MAX_LESSONS = 10  # listed on the class page
 UP = "../.."  # from a submission's page to the folder of the class page
 
 DrawingsOf = Mapping[str, Sequence[str]]
@@ -54,6 +61,7 @@ def write_class_page(
         left_out=left_out,
         batch=batch or {},
         needs_help=who_needs_help(grades),
+        lessons=lessons_to_repeat(grades)[:MAX_LESSONS],
         threshold=NEEDS_HELP,
         cause=cause,
         exercises=exercises,

@@ -120,6 +120,23 @@ def test_the_hardest_checks_are_first_with_the_observations_of_their_failures(tm
     ]
 
 
+def test_lessons_to_repeat_are_those_of_the_most_students_in_all_exercises(tmp_path):
+    frames, feedback = (
+        f"Do it. Read chapters/0{n}.ipynb, “{cell}”." for n, cell in ((1, "Frames"), (6, "Rate"))
+    )
+    page = pages_of(
+        tmp_path,
+        grade("anna", failed("a", help=feedback), failed("b", help=feedback)),
+        grade("bert", failed("a", help=frames), check("b", "not run", help=feedback)),
+        grade("bert", failed("x", help=frames), exercise="walk_client"),
+        grade("carl", failed("x", help=frames), exercise="walk_client"),
+    )
+    assert rows(read(page), "Lessons to which failed checks refer, those of the most students first") == [
+        ["chapters/01.ipynb, “Frames”", "2", "walk_client 2, walk_to 1"],
+        ["chapters/06.ipynb, “Rate”", "1", "walk_to 1"],
+    ]
+
+
 def test_the_drawing_of_the_scores_has_a_text_alternative(tmp_path):
     full = grade("anna", check("a"), check("b"))
     half = [grade(name, check("a"), failed("b")) for name in ("bert", "carl")]
