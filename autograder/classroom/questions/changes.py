@@ -160,8 +160,8 @@ def _sleeps_first(program: StudentProgram, spin: ast.Call) -> Iterator[Change]:
         first = callback.body[1 if ast.get_docstring(callback) and len(callback.body) > 1 else 0]
         if isinstance(first, ast.Assign | ast.Expr):
             why = (
-                f"One thread runs all callbacks ({program.quoted(spin.lineno)}): while {callback.name} sleeps, no "
-                f"other runs ({others}), and what {callback.name} stores is late."
+                f"One thread runs all callbacks ({program.quoted(spin.lineno)}): while {callback.name} sleeps, all "
+                f"others have to wait ({others}), and what {callback.name} stores is late."
             )
             edits: Edits = {first: f"{_import_time(program)}time.sleep({SLEEP_TIME}); {ast.unparse(first)}"}
             yield from _change(program, "executor", "sleeps_first", edits, why=why)
