@@ -24,6 +24,7 @@ PARTS = {
     "Look it up": ("docs/glossary.md", "docs/cheat_sheet.md", "docs/ros2_commands.md", "docs/robot.md"),
     "Set it up": ("docs/for_students.md", "docs/any_machine.md", "docs/accessibility.md"),
     "For instructors": (
+        "docs/choosing.md",
         "docs/for_instructors.md",
         "docs/jupyterhub.md",
         "docs/grading.md",
