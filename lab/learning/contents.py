@@ -44,7 +44,7 @@ class Chapter:
 
     @property
     def name(self) -> str:
-        """The name of the chapter's modules in chapters/support/questions and chapters/support/gaps."""
+        """The name of the chapter's file in chapters/support/questions, and of its module in chapters/support/gaps."""
         return self.notebook.stem.partition("_")[2]
 
 

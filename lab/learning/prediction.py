@@ -31,7 +31,7 @@ def predict(chapter: str, number: int) -> Prediction:
 
     Raises LabError when the chapter has no prediction of that number.
     """
-    return Prediction(number, with_shuffled_choices(read_question(chapter, "PREDICTIONS", number)))
+    return Prediction(number, with_shuffled_choices(read_question(chapter, "predictions", number)))
 
 
 class Prediction:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 
 from lab.learning.contents import CHAPTERS, Chapter, Exercise, read_contents
 from lab.learning.gap import read_gaps
 from lab.learning.progress_file import read_entries
-from lab.learning.question import Question
+from lab.learning.question import Question, read_questions
 from ros_runtime.self_checks import LastCheck, last_checks
 
 
@@ -69,18 +68,19 @@ def next_step(chapters: Sequence[ChapterProgress]) -> tuple[str, Path]:
 
 
 def _of_chapter(chapter: Chapter, checks: Mapping[str, LastCheck]) -> ChapterProgress:
-    questions = import_module(f"chapters.support.questions.{chapter.name}")
-    predicted = _choices(read_entries("predictions", CHAPTERS), questions.PREDICTIONS)
-    answered = _choices(read_entries("questions", CHAPTERS), questions.QUESTIONS)
+    predictions, questions = (
+        read_questions(chapter.name, "predictions"),
+        read_questions(chapter.name, "questions"),
+    )
+    predicted = _choices(read_entries("predictions", CHAPTERS), predictions)
+    answered = _choices(read_entries("questions", CHAPTERS), questions)
     gaps = read_gaps(chapter.name)
     filled = read_entries("gaps", CHAPTERS)
     return ChapterProgress(
         chapter,
         parts={
-            "Predictions": Part(len(predicted), len(questions.PREDICTIONS)),
-            "Quiz": Part(
-                len(answered), len(questions.QUESTIONS), f", {sum(answered)} right" if answered else ""
-            ),
+            "Predictions": Part(len(predicted), len(predictions)),
+            "Quiz": Part(len(answered), len(questions), f", {sum(answered)} right" if answered else ""),
             "Gaps": Part(sum(gap.file in filled for gap in gaps), len(gaps)),
         },
         exercises=[(exercise, checks.get(exercise.name)) for exercise in chapter.exercises],

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, replace
+from functools import cache
 from html import escape
-from importlib import import_module
+from importlib.resources import files
 from random import Random
 
 import ipywidgets
+import yaml
 from IPython.display import HTML, display
 
 from lab.errors import LabError
 from lab.learning.progress_file import Kind, read_entries, shuffle_seed, store_entry
 
 LETTERS = "abcdefgh"
+_FOLDER = files("chapters.support") / "questions"
 _STYLE = """<style>
 .course-choices { width: auto; height: auto; }
 .course-choices label { height: auto; line-height: 1.4; padding: 0.3em 0; cursor: pointer; }
@@ -96,12 +99,36 @@ def as_status(html: str) -> str:
     return f'<span role="status">{html}</span>'
 
 
-def read_question(chapter: str, kind: str, number: int) -> Question:
-    """Return a question from `chapters/support/questions`; `kind` is "QUESTIONS" or "PREDICTIONS".
+def chapters_with_questions() -> list[str]:
+    """Return the names of the files in `chapters/support/questions`, one for each chapter."""
+    return sorted(path.name.removesuffix(".yaml") for path in _FOLDER.iterdir())
+
+
+@cache
+def read_questions(chapter: str, kind: Kind) -> tuple[Question, ...]:
+    """Return a chapter's predictions or quiz questions, from `chapters/support/questions`.
+
+    They are not in the notebook, so that students do not see the answers while they read.
+    """
+    text = (_FOLDER / f"{chapter}.yaml").read_text(encoding="utf-8")
+    return tuple(
+        Question(
+            each["text"],
+            tuple(
+                Choice(choice["text"], choice["why"], choice.get("right") == "true")
+                for choice in each["choices"]
+            ),
+        )
+        for each in yaml.load(text, yaml.BaseLoader)[kind]
+    )
+
+
+def read_question(chapter: str, kind: Kind, number: int) -> Question:
+    """Return one question of a chapter, counted from 1.
 
     Raises LabError when the chapter has no question with that number.
     """
-    questions = getattr(import_module(f"chapters.support.questions.{chapter}"), kind)
+    questions = read_questions(chapter, kind)
     if not 1 <= number <= len(questions):
         raise LabError(
             f"there is no question {number} in {chapter!r}; its questions are 1 to {len(questions)}"

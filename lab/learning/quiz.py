@@ -21,7 +21,7 @@ def quiz(chapter: str, number: int) -> Quiz:
 
     Raises LabError when the chapter has no question with that number.
     """
-    return Quiz(f"Question {number}", with_shuffled_choices(read_question(chapter, "QUESTIONS", number)))
+    return Quiz(f"Question {number}", with_shuffled_choices(read_question(chapter, "questions", number)))
 
 
 class Quiz:

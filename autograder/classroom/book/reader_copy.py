@@ -11,10 +11,11 @@ from nbformat.v4 import new_markdown_cell, new_output
 
 from autograder.classroom.book.links import Links
 from autograder.classroom.book.still_widgets import VIEW, Models, models_of, prediction, quiz, replies, still
+from lab.learning.progress_file import Kind
 from lab.learning.question import Question, read_question
 
 ASKS = re.compile(r'(?P<name>\w+) = lab\.(?P<way>predict|quiz)\("(?P<chapter>\w+)", (?P<number>\d+)\)')
-KINDS = {"predict": "PREDICTIONS", "quiz": "QUESTIONS"}
+KINDS: dict[str, Kind] = {"predict": "predictions", "quiz": "questions"}
 REPLIES = re.compile(r"^(?P<name>\w+)\.reply\(\)$")
 REQUIRES = re.compile(r"^\w+\.require\(\)\n+")
 HIDDEN_INPUT = "remove-input"  # the tag with which myst-nb hides a cell's code

@@ -61,7 +61,7 @@ def test_a_prediction_is_a_question_before_the_experiment_and_folded_replies_aft
             new_code_cell("prediction_2.reply()", id="reply"),
         )
     )
-    question = read_question("services", "PREDICTIONS", 2)
+    question = read_question("services", "predictions", 2)
     assert cells["run"].source == "lab.stop_nodes()"
     assert cells["choose"].metadata.tags == cells["reply"].metadata.tags == [HIDDEN_INPUT]
     assert html(cells["choose"]).count("<li>") == len(question.choices)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from importlib import import_module
 from pathlib import Path
 
 import nbformat
@@ -11,6 +10,7 @@ import pytest
 
 from lab.learning.gap import read_gaps
 from lab.learning.gap_cells import fill, gaps_of, is_empty, is_python
+from lab.learning.question import read_questions
 
 CHAPTERS = Path(__file__).resolve().parents[3] / "chapters"
 NAMES = sorted(path.stem for path in CHAPTERS.glob("*.ipynb"))
@@ -100,7 +100,7 @@ def test_there_is_something_to_do_every_quarter_of_an_hour(name: str) -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_each_prediction_is_asked_for_then_required_then_answered(name: str) -> None:
     chapter = name.partition("_")[2]
-    predictions = import_module(f"chapters.support.questions.{chapter}").PREDICTIONS
+    predictions = read_questions(chapter, "predictions")
     assert len(predictions) >= (4 if name in LESSONS else 2)
     lines = "\n".join(cell.source for cell in read(name).cells if cell.cell_type == "code").splitlines()
     said = [line for line in lines if "prediction_" in line]

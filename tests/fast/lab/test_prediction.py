@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-import pkgutil
-from importlib import import_module
 from pathlib import Path
 
 import ipywidgets
 import pytest
 
 import lab
-from chapters.support import questions
 from lab.learning.prediction import Prediction
 from lab.learning.progress_file import NAME
-from lab.learning.question import Choice, Question
+from lab.learning.question import Choice, Question, chapters_with_questions, read_questions
 
 ALL = [
-    (module.name, number)
-    for module in pkgutil.iter_modules(questions.__path__)
-    for number in range(1, len(import_module(f"chapters.support.questions.{module.name}").PREDICTIONS) + 1)
+    (chapter, number)
+    for chapter in chapters_with_questions()
+    for number in range(1, len(read_questions(chapter, "predictions")) + 1)
 ]
 EXAMPLE = Question(
     "What is 2 + 2?",

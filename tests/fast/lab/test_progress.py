@@ -14,6 +14,7 @@ from lab.learning.contents import read_contents
 from lab.learning.gap import read_gaps
 from lab.learning.prediction import predict
 from lab.learning.progress_file import store_entry
+from lab.learning.question import read_questions
 from ros_runtime.self_checks import FILE, LastCheck, last_checks, store_check
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -35,10 +36,9 @@ def row(number: str) -> progress.ChapterProgress:
 
 def read_chapter(name: str) -> None:
     """Do all of a chapter: predictions, quiz and gaps."""
-    questions = __import__(f"chapters.support.questions.{name}", fromlist=["QUESTIONS"])
-    for number in range(1, len(questions.PREDICTIONS) + 1):
+    for number in range(1, len(read_questions(name, "predictions")) + 1):
         predict(name, number).choose("a")
-    for question in questions.QUESTIONS:
+    for question in read_questions(name, "questions"):
         store_entry(
             "questions", question.text, next(choice.text for choice in question.choices if choice.right)
         )

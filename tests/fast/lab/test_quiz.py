@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-import pkgutil
 from collections import Counter
-from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 import lab
-from chapters.support import questions
-from lab.learning.question import Choice, Question, as_status
+from lab.learning.question import Choice, Question, as_status, chapters_with_questions, read_questions
 from lab.learning.quiz import Quiz
 
-CHAPTERS = [module.name for module in pkgutil.iter_modules(questions.__path__)]
+CHAPTERS = chapters_with_questions()
 ALL = [
     (chapter, number)
     for chapter in CHAPTERS
-    for number in range(1, len(import_module(f"chapters.support.questions.{chapter}").QUESTIONS) + 1)
+    for number in range(1, len(read_questions(chapter, "questions")) + 1)
 ]
 EXAMPLE = Question("2 + 2?", (Choice("4", "Count.", right=True), Choice("5", "One too many.")))
 
