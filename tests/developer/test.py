@@ -54,9 +54,10 @@ def test(
     Further arguments go to pytest: `course test tests/fast/setup -x`, `course test --fast -k name`.
     """
     chosen = {tier for tier, wanted in zip(TIERS, (fast, arena, robot, browser), strict=True) if wanted}
-    # Five files in parallel, because robots and notebooks in the tests wait most of the time. tests/conftest.py sets
-    # the order of the files.
-    parallel = ["-n", "5", "--dist", "loadfile", "--no-loadscope-reorder"]
+    # Five files in parallel, because robots and notebooks in the tests wait most of the time; unit tests do not.
+    # tests/conftest.py sets the order of the files.
+    workers = "auto" if chosen == {"fast"} else "5"
+    parallel = ["-n", workers, "--dist", "loadfile", "--no-loadscope-reorder"]
     arguments = pytest_arguments(chosen, context.args)
     passed = run_pytest([*parallel, *arguments], PROJECT)
     if not passed and again:
