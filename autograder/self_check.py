@@ -21,6 +21,7 @@ from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.hand_in_notice import hidden_checks_notice, saved_work_notice
 from autograder.isolation.availability import available_isolation
+from autograder.lab_hour import share, unshare
 from autograder.recording.kept import Recordings, keep
 from autograder.report.running import RunningLine
 from autograder.report.table import grade_table, print_beginning, print_retry, print_verdict, summary
@@ -56,6 +57,14 @@ class SelfCheck:
                 f"there is no visible check {check_id!r} in {self.grade.exercise}; there are {known}"
             )
         print_verdict(_console(), verdict)
+
+    def share(self, place: str = "") -> None:
+        """Show the instructor's page where this check failed; `place` says where you sit. Raises `CannotShare`."""
+        print(share(self.grade, place))
+
+    def unshare(self) -> None:
+        """Remove from the instructor's page what `share` has shown. Raises `CannotShare`."""
+        print(unshare())
 
     def hidden(self, number: int) -> None:
         """Print that a hidden check is made only during grading."""

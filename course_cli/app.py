@@ -67,6 +67,7 @@ COMMANDS: dict[str, Command] = {
     ),
     "collect": Command("Read submissions from a platform's download.", FOR_INSTRUCTORS),
     "grade": Command("Grade a batch of submissions.", FOR_INSTRUCTORS),
+    "hour": Command("Show a page with the checks at which students are stuck now.", FOR_INSTRUCTORS),
     "requests": Command(
         "Grade the programs of regrade requests again, and draft the replies.", FOR_INSTRUCTORS
     ),
