@@ -112,8 +112,8 @@ def summary(grade: Grade) -> str:
         waiting = sum(verdict.status == "to mark" for verdict in grade.checks)
         return f"to be marked by hand: {waiting} of {len(grade.checks)} criteria"
     label = "" if grade.isolation == "namespaces" else f"  [{grade.isolation}]"
-    before = f" ({grade.earned} before the deduction for late work)" if grade.score != grade.earned else ""
-    return f"{grade.score} of {grade.max_score} points{before}{label}"
+    before = f" ({grade.earned:g} before the deduction for late work)" if grade.score != grade.earned else ""
+    return f"{grade.score:g} of {grade.max_score} points{before}{label}"
 
 
 def _points(verdict: CheckVerdict) -> str:
@@ -137,7 +137,7 @@ def class_table(grades: Sequence[Grade]) -> RenderableType:
             )
         else:
             table.add_row(
-                grade.student, grade.exercise, f"{grade.score}/{grade.max_score}", Text(_lost_at(grade))
+                grade.student, grade.exercise, f"{grade.score:g}/{grade.max_score}", Text(_lost_at(grade))
             )
     return table
 

@@ -134,7 +134,8 @@ def test_the_robot_is_shown_beside_the_notebook_that_has_it(page: Page, folder: 
     for name in ("first", "second"):
         write(folder / f"{TOP}/chapters/{name}.ipynb", new_code_cell("import lab\n\nlab.start_robot()"))
     page.set_viewport_size({"width": 1280, "height": 720})
-    run_first_cell(page, address, "first")
+    open_chapter(page, address, "first")
+    run_first_cell(page, "first")
     picture = page.locator(".course-live img")
     page.get_by_text("STANDING at").wait_for()
     shown, text = picture.bounding_box(), page.get_by_label("first.ipynb").bounding_box()
@@ -148,7 +149,8 @@ def test_the_robot_is_shown_beside_the_notebook_that_has_it(page: Page, folder: 
     page.get_by_text("STANDING at").wait_for()
     assert page.get_by_text("model not found").count() == 0
 
-    run_first_cell(page, address, "second")
+    open_chapter(page, address, "second")
+    run_first_cell(page, "second")
     page.get_by_text("The robot of first.ipynb has ended").wait_for()
     page.get_by_text("STANDING at").wait_for()
     expect(panels(page)).to_have_count(1)
@@ -158,7 +160,7 @@ def test_the_robot_is_shown_beside_the_notebook_that_has_it(page: Page, folder: 
     page.get_by_role("button", name="Confirm Kernel Restart").click()
     ended = page.get_by_text("This picture no longer moves")
     ended.wait_for()
-    run_first_cell(page, address, "second")
+    run_first_cell(page, "second")
     ended.wait_for(state="hidden")
     page.get_by_text("STANDING at").wait_for()
     expect(panels(page)).to_have_count(1)
@@ -316,10 +318,13 @@ def write(notebook: Path, *cells: nbformat.NotebookNode) -> None:
     nbformat.write(new_notebook(cells=cells, metadata=KERNEL), notebook)
 
 
-def run_first_cell(page: Page, address: str, name: str) -> None:
-    """Open a chapter in a page without the tabs of earlier ones, and run its cell."""
+def open_chapter(page: Page, address: str, name: str) -> None:
+    """Open a chapter in a page without the tabs of earlier ones."""
     page.goto(address.replace("start_here.ipynb", f"chapters/{name}.ipynb") + "&reset")
     page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
+
+
+def run_first_cell(page: Page, name: str) -> None:
     page.get_by_label(f"{name}.ipynb").get_by_text("import lab").click()
     page.keyboard.press("Shift+Enter")
 
