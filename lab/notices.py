@@ -50,14 +50,24 @@ def notice(text: str) -> Iterator[None]:
 def announce_commands(shell: Any) -> None:
     """Show a notice while a cell runs a `ros2` command, because a command discovers the graph before it prints."""
     run: Callable[[str], None] = shell.system
+    expand: Callable[..., str] = shell.var_expand
+    further_frames = 2  # run_with_notice and expand_for_caller
+
+    def expand_for_caller(command: str, depth: int = 0, *more: Any) -> str:
+        return expand(command, depth + further_frames, *more)
 
     def run_with_notice(command: str) -> None:
-        if found := _ROS2.search(command):
-            words = f"{found[1]} runs. It first finds the nodes, which takes seconds, on a busy machine up to 20 s."
-            with notice(words):
+        # IPython looks for the variables of a command in the frame that called system()
+        shell.var_expand = expand_for_caller
+        try:
+            if found := _ROS2.search(command):
+                words = f"{found[1]} runs. It first finds the nodes, which takes seconds, on a busy machine up to 20 s."
+                with notice(words):
+                    run(command)
+            else:
                 run(command)
-        else:
-            run(command)
+        finally:
+            shell.var_expand = expand
 
     shell.system = run_with_notice
 

@@ -56,7 +56,7 @@ def test_the_text_alternative_names_publishers_and_subscribers(robot: Kernel) ->
     assert "/robot/imu: from /robot/humanoid to /robot/notebook (which receives nothing)." in svg
     assert "/robot/odom: from /robot/humanoid to /robot/notebook." in svg
     assert "/robot/cmd_vel: from nobody to /robot/humanoid." in svg
-    assert svg.count('stroke="#c0392b"') == 1
+    assert svg.count('stroke="#c0392b"') == 2  # a line, and its legend
 
 
 def test_an_absolute_name_is_another_topic(robot: Kernel) -> None:

@@ -11,6 +11,7 @@ BEGIN = "import time\nfrom lab.notices import notice\n"
 SLOW = "with notice('The robot is <starting>.'):\n    time.sleep(1.5)\n    print('up')"
 QUICK = "with notice('not shown'):\n    print('up')"
 NESTED = "with notice('outer'):\n    with notice('inner'):\n        time.sleep(1.5)"
+WITH_VARIABLES = "def echo(value):\n    !echo {value} $value{words}\necho(7)"
 COMMAND = "!sleep 1.5; true ros2 topic list"
 
 
@@ -43,3 +44,10 @@ def test_a_slow_step_is_announced_and_only_its_own_output_stays() -> None:
     ]
     empty = {"text/plain": ""}
     assert texts == [[empty, "up\n"], ["up\n"], [empty], [empty]]
+
+
+def test_a_command_in_a_function_sees_the_functions_variables() -> None:
+    cells, _ = run(
+        WITH_VARIABLES.replace("{words}", " # ros2 node list"), WITH_VARIABLES.replace("{words}", "")
+    )
+    assert [cell.outputs[0]["text"].strip() for cell in cells] == ["7 7", "7 7"]
