@@ -26,7 +26,7 @@ PARTS = (
     "robot_sim",
     "autograder/*.py",
     *(f"autograder/{room}" for room in ("arena", "authoring", "engine", "isolation", "recording", "report")),
-    *(f"autograder/classroom/{part}" for part in ("*.py", "export", "on_gradescope")),
+    *(f"autograder/classroom/{part}" for part in ("__init__.py", "export", "on_gradescope")),
     *(f"autograder/classroom/commands/{name}.py" for name in ("__init__", "gradescope")),
     *(
         f"autograder/classroom/batch/{name}.py"
