@@ -39,7 +39,10 @@ def saved_work_notice(exercise: str, program: str, folder: Path = Path()) -> Tex
     except UnusableSubmission as error:
         return Text(f"What a grader would take cannot be read: {error}", "yellow")
     if is_same:
-        advice = f"{saved.name} is saved with the program that was checked. To hand it in: ./course submit {exercise}"
+        advice = (
+            f"{saved.name} is saved with the program that was checked. To hand it in: !course submit {exercise} in a "
+            f"cell, or ./course submit {exercise} in a terminal"
+        )
         return Text(advice)
     return Text(
         f"{saved.name}, which a grader would take, is saved with another program than was checked. "

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from importlib.util import find_spec
+from pathlib import Path
 
 import typer
 from rich.console import Console
@@ -75,7 +76,8 @@ def lab_environment() -> dict[str, str]:
     }
     # This variable would override the profile that keeps nodes on this machine.
     environment.pop("ROS_AUTOMATIC_DISCOVERY_RANGE", None)
-    environment["PATH"] = path_with_ros2(environment.get("PATH", os.defpath))
+    commands = Path(sys.executable).parent  # at the end, for `!course submit` in a cell
+    environment["PATH"] = f"{path_with_ros2(environment.get('PATH', os.defpath))}{os.pathsep}{commands}"
     environment.pop(
         "ROS_DOMAIN_ID", None
     )  # each notebook has a domain of its own, which `ros2` in a terminal joins

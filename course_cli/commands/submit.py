@@ -13,10 +13,11 @@ from rich.console import Console
 from rich.text import Text
 
 from autograder.engine.exercise import essay_names, file_names
-from autograder.engine.submission import Submission, read_submission
+from autograder.engine.submission import Submission, UnusableSubmission, read_submission
 from autograder.hand_in_notice import hidden_checks_notice
 from course_cli.options import CourseOption
 from course_cli.own_work import own_work
+from ros_runtime.project import WORK
 from ros_runtime.self_checks import last_checks
 
 
@@ -26,43 +27,71 @@ def submit(
         Path | None,
         typer.Option(help="your notebook or .py file of one exercise (default: what `check` finds)"),
     ] = None,
-    out: Annotated[Path, typer.Option(help="the folder to write to")] = Path("hand_in"),
+    out: Annotated[
+        Path | None,
+        typer.Option(help="the folder to write to (default: hand_in/ in the course's folder, or here)"),
+    ] = None,
     course: CourseOption = None,
 ) -> None:
     """Write one file for each exercise to hand in, and print what it holds."""
     console = Console(highlight=False)
     if file and len(exercises) > 1:
         raise typer.BadParameter("--file is the file of one exercise: name that exercise alone")
+    out = out or _default_folder()
     for exercise in exercises:
         path, left_aside = own_work(exercise, file)
         submission = read_submission(path, exercise)
         for line in left_aside:
             console.print(f"left aside: {line}", style="yellow", markup=False)
-        target = _copy(path, exercise, out)
+        target = _target(path, exercise, out)
+        before = _fingerprint(target, exercise)
+        _copy(path, exercise, target)
         console.print(
             f"{target}: {_contents(submission)}, as saved {_saved(path)}", markup=False, soft_wrap=True
         )
         console.print(
             f"  fingerprint {submission.fingerprint}: your grade's page shows it again", markup=False
         )
+        if before not in ("", submission.fingerprint):
+            console.print(
+                f"  it replaces another program, fingerprint {before}", style="yellow", markup=False
+            )
         console.print("  ", _last_check(submission), soft_wrap=True)
-    console.print(f"Next: hand in what is in {out}/, unchanged.", markup=False)
+    console.print(f"Next: hand in what is in {out}/, unchanged.", markup=False, soft_wrap=True)
 
 
-def _copy(path: Path, exercise: str, out: Path) -> Path:
-    """Copy a file under the name that the grader looks for, or zip a folder of several files; return the new file."""
-    out.mkdir(parents=True, exist_ok=True)
+def _default_folder() -> Path:
+    """Return hand_in/ at the top of the student's course, also for a cell, which runs in its notebook's folder."""
+    here = Path.cwd()
+    return (WORK if here.is_relative_to(WORK.resolve()) else here) / "hand_in"
+
+
+def _target(path: Path, exercise: str, out: Path) -> Path:
+    """Return the file to write: under the name that the grader looks for, or a zip file for several files."""
     if path.is_dir():
-        target = out / f"{exercise}.zip"
+        return out / f"{exercise}.zip"
+    is_notebook = ".ipynb" in map(str.lower, path.suffixes)
+    return out / (f"{exercise}.ipynb" if is_notebook else file_names(exercise)[0])
+
+
+def _fingerprint(target: Path, exercise: str) -> str:
+    """Return the fingerprint of an earlier file; "" if there is none."""
+    try:
+        return read_submission(target, exercise).fingerprint if target.exists() else ""
+    except UnusableSubmission:
+        return ""
+
+
+def _copy(path: Path, exercise: str, target: Path) -> None:
+    """Copy a file, or zip a folder of several files."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if path.is_dir():
         with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED, strict_timestamps=False) as archive:
             for name in file_names(exercise):
                 if (path / name).exists():
                     archive.write(path / name, name)
-        return target
-    is_notebook = ".ipynb" in map(str.lower, path.suffixes)
-    target = out / (f"{exercise}.ipynb" if is_notebook else file_names(exercise)[0])
-    shutil.copyfile(path, target)
-    return target
+    else:
+        shutil.copyfile(path, target)
 
 
 def _contents(submission: Submission) -> str:

@@ -230,3 +230,21 @@ def test_submit_writes_what_a_grader_takes_and_says_what_it_holds(
     assert f"fingerprint {last[NAME].program}" in printed
     assert "Last self-check of this program: 3 of 4 visible checks passed" in printed
     assert "This program has not been checked. Next: ./course check interfaces" in printed
+
+
+def test_a_cell_submits_to_the_top_of_the_course_and_a_replaced_program_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    monkeypatch.setattr(command, "WORK", tmp_path)
+    folder = tmp_path / "exercises" / NAME
+    put(folder, f"{NAME}.ipynb")
+    monkeypatch.chdir(folder)
+    command.submit([NAME])
+    command.submit([NAME])
+    assert "replaces" not in capsys.readouterr().out
+
+    put(folder, (f"{NAME}.ipynb", notebook(OTHER)))
+    command.submit([NAME])
+    before = Submission(NAME, "", {FIRST: WORK}).fingerprint
+    assert f"it replaces another program, fingerprint {before}" in capsys.readouterr().out
+    assert [path.name for path in (tmp_path / "hand_in").iterdir()] == [f"{NAME}.ipynb"]
