@@ -84,6 +84,9 @@ def _may_grant(call: Call) -> set[bool]:
     if call.request.data:
         return {True}
     states = last_states(call)
+    if states and (commands := _commands(call)):
+        # The server has decided before its command; what the command does to the robot is no reason for it.
+        states = [robot for robot in states if robot.t < commands[0].t] or states
     return {robot.mode != RobotMode.WALKING for robot in states} if states else {True, False}
 
 

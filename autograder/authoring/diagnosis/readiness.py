@@ -76,10 +76,10 @@ def require_within_limits(run: Record) -> None:
 
 
 def require_alive(run: Record, instead: str = "") -> None:
-    """Require that the student's process did not end during the scenario; `instead` comes first in its help."""
+    """Require that the student's process did not end before Ctrl-C; `instead` comes first in its help."""
     require_within_limits(run)
-    exited = run.first(ev.NodeExited)
-    if exited and run.first(ev.NodeSignalled) is None:
+    exited, signalled = run.first(ev.NodeExited), run.first(ev.NodeSignalled)
+    if exited and (signalled is None or exited.t < signalled.t):
         remedy = remedy_for_the_end(run, exited)
         raise Failure(
             expected="a node that keeps running",
