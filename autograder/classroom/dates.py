@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from datetime import date, datetime, time, timedelta, timezone
 from pathlib import Path
 from typing import Annotated, Any
@@ -107,7 +107,7 @@ class Deadlines:
     """The late rule, applied to a class. `path` is the file that it comes from."""
 
     path: Path
-    dates: Dates = field(default_factory=Dates)
+    dates: Dates
 
     def applied(self, grades: Sequence[Grade], timestamps: Mapping[tuple[str, str], str]) -> Sequence[Grade]:
         """Return the grades, each with what it loses for being late.
@@ -133,7 +133,7 @@ class Deadlines:
                 continue
             has = left.setdefault(grade.student, self.dates.late.late_days)
             late[grade.student, grade.exercise], left[grade.student] = self._late(grade, moment, due, has)
-        return [grade.with_late(late.get((grade.student, grade.exercise))) for grade in grades]
+        return [replace(grade, late=late.get((grade.student, grade.exercise))) for grade in grades]
 
     def _late(self, grade: Grade, moment: datetime, due: datetime, has: int) -> tuple[Late, int]:
         """Return what one late submission loses, and how many of `has` late days the student has left."""

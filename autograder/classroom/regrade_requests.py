@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass, fields, replace
+from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 
 from rich.console import Console
@@ -84,7 +84,7 @@ def read_state(folder: Path) -> list[RegradeRequest]:
 
 
 def write_state(folder: Path, requests: Sequence[RegradeRequest]) -> None:
-    """Write requests.csv."""
+    """Write all requests, with their states, to requests.csv."""
     rows = [[text_cell(str(cell)) for cell in astuple(request)] for request in requests]
     write_atomically(folder / TABLE, csv_text(_HEADING, rows))
 
@@ -180,9 +180,8 @@ class Evidence:
     def reply(self) -> str:
         """Return the draft of the reply as Markdown, with the evidence for the instructor below it."""
         request, check = self.request, find_check(self.again, self.request.check)
-        seen = next(
-            (each for each in student_view(self.again).checks if check and self._is(each, check)), None
-        )
+        name = cell_names(self.again.checks)[check.id] if check else ""
+        seen = next((each for each in student_view(self.again).checks if each.id == name), None)
         again = f"{request.number}/graded"
         lines = [
             f"# Request {request.number}: {request.student}, {request.exercise}, {request.check}",
@@ -206,15 +205,13 @@ class Evidence:
         ]
         return "\n\n".join(lines) + "\n"
 
-    def _is(self, seen: CheckVerdict, check: CheckVerdict) -> bool:
-        return seen.id == cell_names(self.again.checks)[check.id]
-
 
 def find_check(grade: Grade, asked: str) -> CheckVerdict | None:
     """Return the check that a student means: its id, its title, or "Hidden check 3"; None if there is none."""
     wanted = " ".join(asked.lower().split())
+    names = cell_names(grade.checks)
     for check in grade.checks:
-        shown = cell_names(grade.checks)[check.id]
+        shown = names[check.id]
         if wanted in (check.id, check.title.lower(), shown, shown.replace(HIDDEN, "hidden check ")):
             return check
     return None
@@ -256,11 +253,6 @@ def collect_evidence(request: RegradeRequest, graded: Path, folder: Path, jobs: 
     evidence = Evidence(request, before, read_grades(out / GRADES)[0])
     write_atomically(place / "reply.md", evidence.reply())
     return evidence
-
-
-def answered(request: RegradeRequest, evidence: Evidence) -> RegradeRequest:
-    """Return the request with the result of the second run."""
-    return replace(request, second_run=evidence.result)
 
 
 def _texts(folder: Path) -> Mapping[str, str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field
 from typing import Any, Literal, get_args
 
 CheckStatus = Literal["passed", "failed", "not run", "error", "to mark", "marked"]
@@ -67,10 +67,6 @@ class Grade:
     seed: int | None = None
     program: str = ""
     late: Late | None = None
-
-    def with_late(self, late: Late | None) -> Grade:
-        """Return this grade with another deduction for late work."""
-        return replace(self, late=late)
 
     @property
     def status(self) -> GradeStatus:

@@ -68,10 +68,8 @@ def next_step(chapters: Sequence[ChapterProgress]) -> tuple[str, Path]:
 
 
 def _of_chapter(chapter: Chapter, checks: Mapping[str, LastCheck]) -> ChapterProgress:
-    predictions, questions = (
-        read_questions(chapter.name, "predictions"),
-        read_questions(chapter.name, "questions"),
-    )
+    predictions = read_questions(chapter.name, "predictions")
+    questions = read_questions(chapter.name, "questions")
     predicted = _choices(read_entries("predictions", CHAPTERS), predictions)
     answered = _choices(read_entries("questions", CHAPTERS), questions)
     gaps = read_gaps(chapter.name)

@@ -17,9 +17,8 @@ SERVES_ONE_REQUEST = "02_services#first-intro"
 WRONG_TYPE = "02_services#fields-why"
 CRASHES = "02_services#m9-why"
 OWN_FILE = re.compile(r"/work(?:-[^/]+)?/(\w+\.py)$")  # the folder in which a student's program runs
-SANDBOX_FOLDER = re.compile(
-    r'(?<=File ")[^"]*/work(?:-[^/"]+)?/(?=\w+\.py")'
-)  # before the file's name in a traceback
+# The same folder, before the file's name in a traceback.
+SANDBOX_FOLDER = re.compile(r'(?<=File ")[^"]*/work(?:-[^/"]+)?/(?=\w+\.py")')
 _CRASHED = (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS)
 
 
@@ -126,6 +125,12 @@ _LIMITS: dict[str, Remedy] = {  # by a pattern in the reason of a NodeKilled
 def remedy_for_a_limit(killed: ev.NodeKilled) -> Remedy:
     """Return what to do about a program that was ended because it exceeded a limit."""
     return next(remedy for words, remedy in _LIMITS.items() if re.search(words, killed.reason))
+
+
+def ended_by_itself(run: Record) -> ev.NodeExited | None:
+    """Return the end of the student's program if it came before Ctrl-C; None if it did not."""
+    exited, signalled = run.first(ev.NodeExited), run.first(ev.NodeSignalled)
+    return exited if exited and (signalled is None or exited.t < signalled.t) else None
 
 
 def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:

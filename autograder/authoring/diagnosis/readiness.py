@@ -9,7 +9,12 @@ import difflib
 import re
 
 from autograder.authoring.diagnosis.connections import OUTSIDE
-from autograder.authoring.diagnosis.exit_diagnosis import end_in_words, remedy_for_a_limit, remedy_for_the_end
+from autograder.authoring.diagnosis.exit_diagnosis import (
+    end_in_words,
+    ended_by_itself,
+    remedy_for_a_limit,
+    remedy_for_the_end,
+)
 from autograder.authoring.diagnosis.missing import unseen
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.record import Record
@@ -78,8 +83,7 @@ def require_within_limits(run: Record) -> None:
 def require_alive(run: Record, instead: str = "") -> None:
     """Require that the student's process did not end before Ctrl-C; `instead` comes first in its help."""
     require_within_limits(run)
-    exited, signalled = run.first(ev.NodeExited), run.first(ev.NodeSignalled)
-    if exited and (signalled is None or exited.t < signalled.t):
+    if exited := ended_by_itself(run):
         remedy = remedy_for_the_end(run, exited)
         raise Failure(
             expected="a node that keeps running",

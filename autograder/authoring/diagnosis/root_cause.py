@@ -9,6 +9,7 @@ from autograder.authoring.diagnosis.exit_diagnosis import (
     GROWS,
     LEAKS,
     end_in_words,
+    ended_by_itself,
     remedy_for_a_limit,
     remedy_for_the_end,
 )
@@ -62,8 +63,8 @@ def _overfull(run: Record) -> Cause | None:
 
 
 def _exited(run: Record) -> Cause | None:
-    exited, signalled = run.first(ev.NodeExited), run.first(ev.NodeSignalled)
-    if exited is None or (signalled is not None and signalled.t <= exited.t):
+    exited = ended_by_itself(run)
+    if exited is None:
         return None
     remedy = remedy_for_the_end(run, exited)
     words = f"the node had ended at {exited.t:.1f} s, {end_in_words(run, exited)}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -15,7 +16,6 @@ from autograder.classroom.batch.folder_lock import locked
 from autograder.classroom.regrade_requests import (
     TABLE,
     UnusableRequests,
-    answered,
     collect_evidence,
     new_requests,
     read_state,
@@ -60,7 +60,7 @@ def requests(
                 console.print(f"request {request.number}: {error}", style="red", markup=False)
                 failed = True
                 continue
-            state[index] = answered(request, evidence)
+            state[index] = replace(request, second_run=evidence.result)
             write_state(out, state)
             failed |= bool(evidence.differences)
     table = Table(show_edge=False)
