@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.recording.replay.film import film, require_known_format
+from autograder.recording.replay.film import film, format_of
 from autograder.recording.replay.recording import (
     Recording,
     Span,
@@ -46,8 +46,7 @@ def replay(
     """Show a recorded arena: in the web view, as a film, or as text."""
     console = Console(highlight=False)
     try:
-        if film_file:
-            require_known_format(film_file)
+        kind = format_of(film_file) if film_file else "WEBP"
         recording = Recording.read(file)
         span = span_of(recording, around, seconds)
         console.print(title(recording), markup=False)
@@ -58,7 +57,7 @@ def replay(
         require_postures(recording)
         console.print(f"from {span.start:.1f} to {span.end:.1f} s", style="dim")
         if film_file:
-            frames = film(recording, span, film_file, camera=camera)
+            frames = film(recording, span, film_file, kind, camera=camera)
             console.print(f"{film_file}: {frames} frames", markup=False)
             return
         _in_the_browser(console, recording, span, port)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from mcap.reader import make_reader
 from rcl_interfaces.msg import Log
@@ -78,24 +79,29 @@ class Recording:
 
     @classmethod
     def read(cls, path: Path) -> Recording:
-        """Read a file.
+        """Read a file; raises the same as `parsed`."""
+        _require_a_small_file(path)
+        with path.open("rb") as file:
+            return cls.parsed(file, path)
+
+    @classmethod
+    def parsed(cls, file: IO[bytes], path: Path) -> Recording:
+        """Read an open file.
 
         Raises:
             UnusableRecording: the file is not a recording, is damaged, or was written by another version.
         """
-        _require_a_small_file(path)
         try:
-            with path.open("rb") as file:
-                reader = make_reader(file, validate_crcs=True)
-                about = _metadata(path, reader.iter_metadata())
-                collected = _Collected(about["namespace"])
-                for number, (schema, channel, message) in enumerate(reader.iter_messages()):
-                    if number >= MAX_MESSAGES:
-                        raise UnusableRecording(
-                            f"{path} holds more than {MAX_MESSAGES:,} messages, too many to show"
-                        )
-                    if schema:
-                        collected.add(message.log_time / 1e9, channel.topic, schema.name, message.data)
+            reader = make_reader(file, validate_crcs=True)
+            about = _metadata(path, reader.iter_metadata())
+            collected = _Collected(about["namespace"])
+            for number, (schema, channel, message) in enumerate(reader.iter_messages()):
+                if number >= MAX_MESSAGES:
+                    raise UnusableRecording(
+                        f"{path} holds more than {MAX_MESSAGES:,} messages, too many to show"
+                    )
+                if schema:
+                    collected.add(message.log_time / 1e9, channel.topic, schema.name, message.data)
         except UnusableRecording:
             raise
         except Exception as error:  # three libraries raise different errors for malformed bytes
@@ -127,6 +133,11 @@ class Recording:
             return verdicts[check]
         known = ", ".join(reversed(verdicts)) or "none"
         raise UnusableRecording(f"no check {check!r} judged this run; the checks that did are {known}")
+
+
+def recordings_in(files: Mapping[str, bytes]) -> list[Recording]:
+    """Return the recordings of files that are not written to disk, by their names; raises the same as `parsed`."""
+    return [Recording.parsed(io.BytesIO(content), Path(name)) for name, content in sorted(files.items())]
 
 
 class _Collected:

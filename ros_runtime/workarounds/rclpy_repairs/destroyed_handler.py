@@ -11,6 +11,7 @@ The repair. A destroyed handler is not added to the wait set, so it is never rea
 
 from __future__ import annotations
 
+from contextlib import suppress
 from types import ModuleType
 from typing import Any
 
@@ -33,10 +34,8 @@ def repair(event_handler: ModuleType) -> None:
 
     def add_unless_destroyed(self: Any, wait_set: Any) -> None:
         self._event_index = None
-        try:
+        with suppress(invalid_handle):
             add_to_wait_set(self, wait_set)
-        except invalid_handle:
-            pass
 
     def take_unless_destroyed(self: Any) -> Any:
         try:
