@@ -54,6 +54,7 @@ def grade_once(console: Console, request: BatchRequest) -> int:
                 request.out, grades, record, json_file=request.json_file, deadlines=request.deadlines
             )
             add_all(console, files, results)
+            add_all(console, files, files.outdated(collection.works))
             is_entered = print_summary(console, files, request.out, files.write(collection.refused))
     not_graded = print_ungraded(console, collection, results)
     if request.record:

@@ -74,6 +74,8 @@ class _Watch:
             left_aside=left_aside(self._folder.collection, self._results.values()),
             refused=self._folder.collection.refused,
         ).closed("interrupted" if self._folder.unfinished else "ended")
+        for result in self._files.outdated(self._folder.collection.works):
+            self._files.add(result)
         self._write_class()
         return self._print_summary()
 

@@ -110,17 +110,32 @@ def test_a_class_without_dates_has_none(tmp_path: Path) -> None:
         read_deadlines(tmp_path / "missing.yaml", tmp_path)
 
 
-def test_gradebook_and_pages_follow_the_dates_also_when_these_change(tmp_path: Path) -> None:
-    folder, out = tmp_path / "submitted/ada/patterns", tmp_path / "graded"
-    folder.mkdir(parents=True)
+@pytest.mark.parametrize("second", [[], ["--student", "ben"]])
+def test_gradebook_and_pages_follow_the_dates_also_when_these_change(
+    tmp_path: Path, second: list[str]
+) -> None:
+    """Also those of a student who is not graded again."""
+    out = tmp_path / "graded"
     correct = exercises_folder() / "patterns/known/correct/as_a_node.py"
-    shutil.copy(correct, folder / "patterns.py")
-    (folder / "timestamp.txt").write_text("2026-12-05 12:00:00 UTC\n")
-    for percent, score in ((10, 11.7), (20, 10.4)):
+    for student in ("ada", "ben"):
+        folder = tmp_path / "submitted" / student / "patterns"
+        folder.mkdir(parents=True)
+        shutil.copy(correct, folder / "patterns.py")
+        (folder / "timestamp.txt").write_text("2026-12-05 12:00:00 UTC\n")
+    for percent, score, options in ((10, 11.7, []), (20, 10.4, second)):
         (tmp_path / "dates.yaml").write_text(
             f"due: {{patterns: 2026-12-04}}\nlate: {{percent_per_day: {percent}}}\n"
         )
-        command = ["grade", str(tmp_path / "submitted"), "--out", str(out), "--jobs", "1", "--resume"]
+        command = [
+            "grade",
+            str(tmp_path / "submitted"),
+            "--out",
+            str(out),
+            "--jobs",
+            "1",
+            "--resume",
+            *options,
+        ]
         ran = CliRunner().invoke(app("grade"), command)
         assert ran.exit_code == 0, ran.output
 
