@@ -14,3 +14,9 @@ class CourseError(Exception):
     def _render_traceback_(self) -> list[str]:
         """Jupyter shows this instead of a traceback."""
         return [f"{type(self).__name__}: {self}"]
+
+
+class CommandFailed(CourseError):
+    """The arguments are usable, but the command could not do its job."""
+
+    exit_status = COMMAND_FAILED

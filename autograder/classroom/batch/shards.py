@@ -25,10 +25,6 @@ from ros_runtime.course_error import CourseError
 SHARD = "shard.json"
 
 
-class CannotMerge(CourseError):
-    """The folders do not make one batch; the message says why, and what to do."""
-
-
 @dataclass(frozen=True)
 class Shard:
     """Part `number` (from 1) of a class that is split into `total` parts."""
@@ -119,7 +115,7 @@ def merge_shards(folders: Sequence[Path]) -> Merged:
     """Merge the files that `write_shard` wrote into these folders.
 
     Raises:
-        CannotMerge: a folder holds no shard, two folders hold the same submission, or the seeds, versions or isolations
+        CourseError: a folder holds no shard, two folders hold the same submission, or the seeds, versions or isolations
             of the shards differ.
     """
     shards = {folder: _read(folder) for folder in folders}
@@ -130,7 +126,7 @@ def merge_shards(folders: Sequence[Path]) -> Merged:
             ("versions", "bring all clones to one commit and grade with --resume"),
         ):
             if record[what] != given[what]:  # type: ignore[literal-required]
-                raise CannotMerge(f"{first} and {folder} were graded with different {what}: {advice}")
+                raise CourseError(f"{first} and {folder} were graded with different {what}: {advice}")
     results: dict[tuple[str, str], Graded] = {}
     found_in: dict[tuple[str, str], Path] = {}
     isolations: dict[bool, Path] = {}
@@ -139,7 +135,7 @@ def merge_shards(folders: Sequence[Path]) -> Merged:
             grade = _grade_of(row, folder)
             key = (grade.student, grade.exercise)
             if key in results:
-                raise CannotMerge(
+                raise CourseError(
                     f"{grade.student}'s {grade.exercise} is in {found_in[key]} and in {folder}: leave out one of these"
                 )
             # Essays and submissions of lost workers have another label.
@@ -148,7 +144,7 @@ def merge_shards(folders: Sequence[Path]) -> Merged:
             found_in[key] = folder
             results[key] = Graded(_work_of(row, grade), grade, row["sources"], row["problem"])
     if len(isolations) == 2:
-        raise CannotMerge(
+        raise CourseError(
             f"{isolations[True]} was graded without isolation and hidden checks, {isolations[False]} with both: "
             "grade the first again where namespaces work"
         )
@@ -163,7 +159,7 @@ def _grade_of(row: _Row, folder: Path) -> Grade:
     try:
         return Grade.from_json(row["grade"])
     except ValueError as error:
-        raise CannotMerge(
+        raise CourseError(
             f"{folder} contains an invalid grade ({str(error)[:500]}); grade this shard again"
         ) from error
 
@@ -186,6 +182,6 @@ def _read(folder: Path) -> _Record:
         Shard.parse(record["shard"])
         return record
     except UNREADABLE as error:
-        raise CannotMerge(
+        raise CourseError(
             f"{folder} holds no finished shard (`course grade --shard K/N`): {str(error)[:500]}"
         ) from error

@@ -17,16 +17,10 @@ from nbformat.v4 import new_code_cell
 
 from lab.learning.gap_cells import fill_gaps
 from ros_cli.real_ros2 import path_with_ros2
-from ros_runtime.course_error import COMMAND_FAILED, CourseError
+from ros_runtime.course_error import CommandFailed
 
 # s; building interfaces takes ten seconds on an idle machine, and minutes on a busy one
 CELL_TIMEOUT = 300
-
-
-class ChapterFailed(CourseError):
-    """A cell of a chapter raised, did not end in time, or lost its kernel."""
-
-    exit_status = COMMAND_FAILED
 
 
 @dataclass(frozen=True)
@@ -57,7 +51,7 @@ def execute(
     """Run all cells of a chapter in a folder; `on_cell` gets each cell's number and the number of cells.
 
     Raises:
-        ChapterFailed: a cell failed; the message names the chapter and the cell.
+        CommandFailed: a cell failed; the message names the chapter and the cell.
         KeyboardInterrupt: Ctrl-C; the kernel has been ended.
     """
     notebook = answered(nbformat.read(chapter, as_version=4))
@@ -79,13 +73,13 @@ def execute(
     try:
         _execute(client)
     except CellExecutionError as error:
-        raise ChapterFailed(f"{chapter.name}, cell {reached.id}: {error.ename}: {error.evalue}") from error
+        raise CommandFailed(f"{chapter.name}, cell {reached.id}: {error.ename}: {error.evalue}") from error
     except CellTimeoutError as error:
-        raise ChapterFailed(
+        raise CommandFailed(
             f"{chapter.name}, cell {reached.id}: did not end within {CELL_TIMEOUT} s"
         ) from error
     except DeadKernelError as error:
-        raise ChapterFailed(f"{chapter.name}, cell {reached.id}: its kernel died") from error
+        raise CommandFailed(f"{chapter.name}, cell {reached.id}: its kernel died") from error
     return Executed(notebook, [str(process) for process in processes_in(folder)])
 
 

@@ -14,7 +14,7 @@ from nbformat import NotebookNode
 from autograder.classroom.book.links import Links
 from autograder.classroom.book.reader_copy import reader_copy
 from autograder.classroom.book.week_pages import week_page
-from ros_runtime.course_error import COMMAND_FAILED, CourseError
+from ros_runtime.course_error import CommandFailed
 from ros_runtime.project import PROJECT
 
 CONFIGURATION = Path(__file__).with_name("sphinx")
@@ -55,12 +55,6 @@ run every cell and change it.
 OUTPUTS = " Their outputs and pictures come from a run of every cell."
 
 
-class BookFailed(CourseError):
-    """Sphinx could not make the site, or it printed a warning."""
-
-    exit_status = COMMAND_FAILED
-
-
 def parts_of(project: Path) -> dict[str, dict[PurePosixPath, Path]]:
     """Return the pages of the book by part, in order: the path of each in the sources, and the file to copy."""
     return {
@@ -85,7 +79,7 @@ def make_site(
 
     `work` is a folder for Sphinx's sources and cache.
 
-    Raises BookFailed, with the errors and warnings of Sphinx.
+    Raises CommandFailed, with the errors and warnings of Sphinx.
     """
     sources = work / "sources"
     shutil.rmtree(sources, ignore_errors=True)
@@ -97,7 +91,7 @@ def make_site(
     ]
     finished = subprocess.run(command, capture_output=True, text=True, cwd=PROJECT)
     if finished.returncode != 0:
-        raise BookFailed(f"Sphinx could not make the book:\n{finished.stderr.strip()}")
+        raise CommandFailed(f"Sphinx could not make the book:\n{finished.stderr.strip()}")
     return output / "index.html"
 
 

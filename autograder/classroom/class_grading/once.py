@@ -31,7 +31,7 @@ def grade_once(console: Console, request: BatchRequest) -> int:
     """Grade a batch; return the exit status: 0 if every submission has a grade in the gradebook.
 
     Raises:
-        NoSubmissions, NothingSelected: there is nothing to grade.
+        CourseError: there is nothing to grade.
         UnusableExercise: the exercise's author has to correct the exercise.
         Exception: the exceptions of `prepared`.
     """

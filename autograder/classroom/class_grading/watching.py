@@ -30,7 +30,7 @@ def watch_and_grade(console: Console, request: BatchRequest) -> int:
 
     Raises:
         NoSubmissions: the folder does not exist (an empty folder is allowed).
-        FolderInUse: another process watches the folder.
+        CommandFailed: another process watches the folder.
         UnusableExercise: the exercise's author has to correct the exercise.
         Exception: the exceptions of `prepared`.
     """

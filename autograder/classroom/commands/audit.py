@@ -12,12 +12,7 @@ from autograder.classroom.audit.audit_record import AuditRecord, read_runs
 from autograder.classroom.audit.fault_patch import SUFFIX, as_patch
 from autograder.classroom.audit.generated.run import audit_generated, mutant_named
 from autograder.classroom.audit.kill_matrix import kill_matrix, print_progress
-from autograder.classroom.audit.known_submission import (
-    HeaderError,
-    KnownSubmission,
-    known_submission,
-    known_submissions,
-)
+from autograder.classroom.audit.known_submission import KnownSubmission, known_submission, known_submissions
 from autograder.classroom.audit.leftovers import leftovers
 from autograder.classroom.audit.run import AuditedRun
 from autograder.classroom.audit.run import audit as audit_submissions
@@ -178,7 +173,7 @@ def _found(exercise: str | None, name: str) -> KnownSubmission:
         [exercise] if exercise else [one for one in exercise_names() if known_submissions(one, only=name)]
     )
     if len(having) != 1:
-        raise HeaderError(
+        raise CourseError(
             f"{name} is a submission of {', '.join(having) or 'no exercise'}; give one exercise, too"
         )
     return known_submission(having[0], name)
@@ -194,9 +189,9 @@ def _show(known: KnownSubmission) -> None:
 
 
 def _show_mutant(exercise: str | None, name: str) -> None:
-    """Print a mutant's sentence and diff; raises `HeaderError` if there is no such mutant."""
+    """Print a mutant's sentence and diff; raises `CourseError` if there is no such mutant."""
     if exercise is None:
-        raise HeaderError(
+        raise CourseError(
             f"give the mutant's exercise, too: ./course audit EXERCISE --generated --show {name}"
         )
     mutant = mutant_named(exercise, name)

@@ -9,10 +9,11 @@ import pytest
 from nbgrader.api import Gradebook
 from typer.testing import CliRunner
 
-from autograder.classroom.dates import Deadlines, UnusableDates, read_deadlines
+from autograder.classroom.dates import Deadlines, read_deadlines
 from autograder.engine.exercise import exercises_folder
 from autograder.engine.verdict import CheckVerdict, Grade
 from course_cli.app import app
+from ros_runtime.course_error import CourseError
 
 DUE = "due: {walk_to: 2026-12-04 18:00, walk_client: 2026-12-04}\n"
 RULE = "late: {percent_per_day: 10, at_most_percent: 40, grace_minutes: 15}\n"
@@ -100,13 +101,13 @@ def test_the_instructor_reads_who_is_late_whose_time_is_unknown_and_who_is_missi
     ],
 )
 def test_a_wrong_entry_is_named_with_what_is_expected(tmp_path: Path, text: str, message: str) -> None:
-    with pytest.raises(UnusableDates, match=message):
+    with pytest.raises(CourseError, match=message):
         deadlines(tmp_path, text)
 
 
 def test_a_class_without_dates_has_none(tmp_path: Path) -> None:
     assert read_deadlines(None, tmp_path / "submitted") is None
-    with pytest.raises(UnusableDates, match="cannot be read"):
+    with pytest.raises(CourseError, match="cannot be read"):
         read_deadlines(tmp_path / "missing.yaml", tmp_path)
 
 
