@@ -28,7 +28,7 @@ from autograder.engine.submission import Submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckStatus, CheckVerdict, Grade
 from autograder.isolation.availability import Isolation, available_isolation
-from ros_runtime.course_error import CourseError
+from ros_runtime.course_error import CommandFailed
 
 Runs = dict[Scenario, Future[Transcript]]
 
@@ -94,12 +94,12 @@ def grade(
 
     Raises:
         Stopped: `stop` was set before the last verdict.
-        CourseError: there are hidden checks, and arenas cannot be isolated here or could read them.
+        CommandFailed: there are hidden checks, and arenas cannot be isolated here or could read them.
     """
     isolation = options.isolation or available_isolation()
     if any(check.hidden for check in exercise.checks):
         if not isolation.trusted:
-            raise CourseError(f"hidden checks need isolated arenas: {isolation.reason}")
+            raise CommandFailed(f"hidden checks need isolated arenas: {isolation.reason}")
         require_hidden([exercise.folder, exercises_folder()])
     options = replace(options, isolation=isolation)
     with nullcontext(arenas) if arenas else SubmissionArenas(exercise.scenario_file, isolation.kind) as ours:

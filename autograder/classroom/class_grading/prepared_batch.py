@@ -78,9 +78,9 @@ def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> 
     `works` are the submissions of the whole class.
 
     Raises:
-        CommandFailed: another process grades into the output folder, or there is no cluster at the given address.
-        CourseError: students could read the checks on this machine, or grades that are kept have another seed or
-            cannot be read.
+        CommandFailed: another process grades into the output folder, there is no cluster at the given address, or
+            students could read the checks on this machine.
+        CourseError: grades that are kept have another seed or cannot be read.
     """
     if (
         not request.dask and available_isolation().trusted

@@ -13,7 +13,7 @@ from autograder.engine.path_exposure import require_hidden
 from autograder.isolation.arena_spec import Kind
 from autograder.isolation.availability import Isolation
 from course_cli.app import app
-from ros_runtime.course_error import CourseError
+from ros_runtime.course_error import CommandFailed
 from ros_runtime.project import PROJECT
 
 
@@ -30,7 +30,7 @@ from ros_runtime.project import PROJECT
     ],
 )
 def test_files_inside_a_visible_folder_are_refused(path: str) -> None:
-    with pytest.raises(CourseError, match=r"nothing is graded: .* lies in .*; move it"):
+    with pytest.raises(CommandFailed, match=r"nothing is graded: .* lies in .*; move it"):
         require_hidden([Path("/srv/course"), Path(path)])
 
 
@@ -42,7 +42,7 @@ def test_a_link_is_followed_on_both_sides(tmp_path: Path) -> None:
     (tmp_path / "shown/solutions").mkdir(parents=True)
     (tmp_path / "link").symlink_to(tmp_path / "shown")
     for hidden, shown in (("link/solutions", "shown"), ("shown/solutions", "link")):
-        with pytest.raises(CourseError):
+        with pytest.raises(CommandFailed):
             require_hidden([tmp_path / hidden], [tmp_path / shown])
 
 

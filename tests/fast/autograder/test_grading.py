@@ -18,7 +18,7 @@ from autograder.engine.submission import Submission
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
 from records import robot
-from ros_runtime.course_error import CourseError
+from ros_runtime.course_error import CommandFailed
 
 ISOLATED = Isolation(Kind.NAMESPACES, "given")
 SUBMISSION = Submission("battery_service", "ada", {"battery_service.py": ""})
@@ -253,7 +253,7 @@ def test_hidden_checks_are_refused_without_isolation(monkeypatch):
         """Secret"""
 
     ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
-    with pytest.raises(CourseError, match="no namespaces here"):
+    with pytest.raises(CommandFailed, match="no namespaces here"):
         graded(exercise(replace(secret, hidden=True)), isolation=Isolation(Kind.NONE, "no namespaces here"))
     assert ran == []
 
@@ -265,7 +265,7 @@ def test_hidden_checks_are_refused_where_a_sandbox_would_show_them(monkeypatch):
 
     ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
     shown = replace(exercise(replace(secret, hidden=True)), folder=Path(sys.prefix, "share/course/secrets"))
-    with pytest.raises(CourseError, match=r"secrets lies in .*, which students' programs can read"):
+    with pytest.raises(CommandFailed, match=r"secrets lies in .*, which students' programs can read"):
         graded(shown)
     assert ran == []
 
