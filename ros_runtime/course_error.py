@@ -4,6 +4,7 @@ from __future__ import annotations
 
 COMMAND_FAILED = 1  # exit status: the command failed
 UNUSABLE = 2  # exit status: the command's arguments or files are unusable
+NOT_GRADED = 3  # exit status: the grader could not judge a submission
 
 
 class CourseError(Exception):

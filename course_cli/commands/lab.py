@@ -8,12 +8,11 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import typer
-from rich.console import Console
 
-from course_cli.ending import COMMAND_FAILED, error_exit
 from course_cli.work_folder import work_folder
 from ros_cli.real_ros2 import path_with_ros2
 from ros_runtime import notebook_domains
+from ros_runtime.course_error import CommandFailed
 from ros_runtime.environment import ros_environment
 from ros_runtime.project import PROJECT, WORK_VARIABLE
 from ros_runtime.ros_domain import loopback_variables
@@ -34,10 +33,9 @@ def lab(context: typer.Context) -> None:
     try:
         folder = work_folder()
     except OSError as error:
-        reason = (
+        raise CommandFailed(
             f"your notebooks cannot be saved: {error}.\nNext: COURSE_WORK=/a/folder/of/yours ./course lab"
-        )
-        raise error_exit(Console(), reason, COMMAND_FAILED) from error
+        ) from error
     # Terminals start no login shell, because /etc/profile would remove `ros2` from the PATH.
     terminals = {"shell_command": [os.environ.get("SHELL") or "bash"]}
     command = [
@@ -58,10 +56,9 @@ def _server() -> str:
         return "jupyterlab"
     if find_spec("jupyterhub") is None:
         line = f"{PROJECT}/.venv/bin/uv pip install --python {PROJECT}/.venv/bin/python jupyterhub"
-        reason = (
+        raise CommandFailed(
             f"JupyterHub started this command, but the course's environment lacks jupyterhub.\nNext: {line}"
         )
-        raise error_exit(Console(soft_wrap=True), reason, COMMAND_FAILED)
     return "jupyterhub.singleuser"
 
 

@@ -34,10 +34,10 @@ class Shard:
 
     @classmethod
     def parse(cls, text: str) -> Shard:
-        """Read "K/N"; raises ValueError unless 1 ≤ K ≤ N."""
+        """Read "K/N"; raises CourseError unless 1 ≤ K ≤ N."""
         match = re.fullmatch(r"([1-9]\d{0,5})/([1-9]\d{0,5})", text)
         if not match or int(match[1]) > int(match[2]):
-            raise ValueError(f"{text[:100]!r} is not a shard; expected K/N with K from 1 to N, such as 1/4")
+            raise CourseError(f"{text[:100]!r} is not a shard; expected K/N with K from 1 to N, such as 1/4")
         return cls(int(match[1]), int(match[2]))
 
     def part(self, works: Sequence[Work]) -> list[Work]:
@@ -181,7 +181,7 @@ def _read(folder: Path) -> _Record:
         record = _RECORD.validate_python(json.loads((folder / SHARD).read_text(encoding="utf-8")))
         Shard.parse(record["shard"])
         return record
-    except UNREADABLE as error:
+    except (*UNREADABLE, CourseError) as error:
         raise CourseError(
             f"{folder} holds no finished shard (`course grade --shard K/N`): {str(error)[:500]}"
         ) from error

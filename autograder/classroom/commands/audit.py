@@ -18,9 +18,8 @@ from autograder.classroom.audit.run import AuditedRun
 from autograder.classroom.audit.run import audit as audit_submissions
 from autograder.engine.exercise import Exercise, exercise_names, load_exercise
 from autograder.isolation.availability import available_isolation
-from course_cli.ending import COMMAND_FAILED, error_exit
 from course_cli.options import CourseOption, JobsOption
-from ros_runtime.course_error import CourseError
+from ros_runtime.course_error import COMMAND_FAILED, CommandFailed, CourseError
 
 MATRIX_WIDTH = 140  # characters
 
@@ -124,7 +123,7 @@ def audit(
             if json_file
             else "No grading is saved."
         )
-        raise error_exit(console, f"Interrupted. {advice}", COMMAND_FAILED) from None
+        raise CommandFailed(f"Interrupted. {advice}") from None
     if not found:
         raise CourseError(f"no {'mutant' if generated else 'submission'} matches {only!r}")
     for line in left:

@@ -18,9 +18,8 @@ from autograder.classroom.dates import read_deadlines
 from autograder.engine.exercise import UnknownExercise, all_names
 from autograder.engine.hand_in import work_in
 from autograder.engine.submission import UnusableSubmission, read_submission
-from course_cli.ending import COMMAND_FAILED, error_exit
 from course_cli.options import CourseOption, DatesOption
-from ros_runtime.course_error import CourseError
+from ros_runtime.course_error import COMMAND_FAILED, CommandFailed, CourseError
 
 # The reader of each platform's downloads.
 PLATFORMS = {"canvas": canvas, "moodle": moodle, "gradescope": gradescope, "classroom50": classroom50}
@@ -72,7 +71,7 @@ def collect(
                 )
             placed = place(choice, out, overwrite=overwrite)
     except OSError as error:
-        raise error_exit(console, f"{out} cannot be written: {error}", COMMAND_FAILED) from error
+        raise CommandFailed(f"{out} cannot be written: {error}") from error
     for line in [*reading.unknown, *choice.left_aside]:
         console.print(f"left aside: {line}", style="yellow", markup=False)
     if without := {one.student for one in reading.files} - {student for student, _ in choice.works}:

@@ -44,7 +44,7 @@ def test_each_submission_is_in_one_shard_whatever_the_order(of):
     "text", ["0/3", "4/3", "1", "1/0", "a/b", "-1/3", "1/3/5", "1/1000000000", "9" * 5000 + "/9"]
 )
 def test_an_invalid_shard_is_refused(text):
-    with pytest.raises(ValueError, match="expected K/N"):
+    with pytest.raises(CourseError, match="expected K/N"):
         Shard.parse(text)
 
 
