@@ -8,7 +8,10 @@ NOT_GRADED = 3  # exit status: the grader could not judge a submission
 
 
 class CourseError(Exception):
-    """The message says what was seen, what was expected and what to do next; `course` and Jupyter show no traceback."""
+    """The message says what was seen, what was expected and what to do next; `course` and Jupyter show no traceback.
+
+    Docstrings name only those of its classes that somebody catches on the way.
+    """
 
     exit_status = UNUSABLE
 

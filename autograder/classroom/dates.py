@@ -192,11 +192,7 @@ def _days(count: int) -> str:
 
 
 def read_deadlines(given: Path | None, beside: Path) -> Deadlines | None:
-    """Read the dates of a course: from `given`, or from dates.yaml in the folder that contains `beside`, if it exists.
-
-    Raises:
-        CourseError: the file cannot be read, or an entry is wrong.
-    """
+    """Read the dates of a course from `given`, or from dates.yaml in the folder around `beside`, if it exists."""
     path = given or beside.resolve().parent / DATES
     if not given and not path.exists():
         return None

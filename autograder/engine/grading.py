@@ -94,7 +94,6 @@ def grade(
 
     Raises:
         Stopped: `stop` was set before the last verdict.
-        CommandFailed: there are hidden checks, and arenas cannot be isolated here or could read them.
     """
     isolation = options.isolation or available_isolation()
     if any(check.hidden for check in exercise.checks):

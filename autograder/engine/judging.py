@@ -14,8 +14,7 @@ from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import CannotBeJudged, Failure, NoOccasion
 from autograder.authoring.lesson import in_words
-from autograder.engine.bounds import require_bounded
-from autograder.engine.completeness import require_whole
+from autograder.engine.completeness import require_bounded, require_whole
 from autograder.engine.verdict import CheckStatus, CheckVerdict
 
 LOG_LINES = 40

@@ -24,9 +24,8 @@ from ros_runtime.course_error import CourseError
 SUFFIX = ".patch"
 MAX_CHANGED_SHARE = 0.6  # share of a program's lines; if more differ, the whole file is clearer than a diff
 _CONTEXT = 2  # lines around a change
-DOCSTRING = re.compile(
-    r'\A(?:#.*\n|\s)*"""(.*?)"""\n?', re.DOTALL
-)  # matches in files with syntax errors, too
+# matches in files with syntax errors, too
+DOCSTRING = re.compile(r'\A(?:#.*\n|\s)*"""(.*?)"""\n?', re.DOTALL)
 _DIFF_START = re.compile(r"^--- (\S+)", re.MULTILINE)
 
 

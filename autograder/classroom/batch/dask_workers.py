@@ -32,9 +32,6 @@ def dask_cluster(address: str) -> Iterator[Cluster]:
 
     If only some workers are isolated, only those grade. Each job checks its worker again, because workers may join
     later.
-
-    Raises:
-        CommandFailed: `distributed` is not installed, no scheduler responds, or the cluster has no usable worker.
     """
     try:
         from distributed import Client

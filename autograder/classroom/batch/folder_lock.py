@@ -16,11 +16,7 @@ LOCK = ".lock"
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Lock the folder, and create it if it is missing; the lock ends with the process, even when it crashes.
-
-    Raises:
-        CommandFailed: another process holds the lock.
-    """
+    """Lock the folder, and create it if it is missing; the lock ends with the process, even when it crashes."""
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / LOCK).open("a+", encoding="utf-8") as file:
         try:

@@ -77,11 +77,7 @@ class WatchedFolder:
 
 @contextmanager
 def only_watcher(folder: Path) -> Iterator[None]:
-    """Lock the folder as its only watcher; nothing is written into it.
-
-    Raises:
-        CommandFailed: another process watches it.
-    """
+    """Lock the folder as its only watcher; nothing is written into it."""
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 import sys
@@ -13,7 +14,6 @@ from nbformat import NotebookNode
 
 from autograder.classroom.book.links import Links
 from autograder.classroom.book.reader_copy import reader_copy
-from autograder.classroom.book.week_pages import week_page
 from ros_runtime.course_error import CommandFailed
 from ros_runtime.project import PROJECT
 
@@ -53,6 +53,7 @@ robot what goes wrong between ROS 2 programs, and how to do it right.{outputs}
 run every cell and change it.
 """
 OUTPUTS = " Their outputs and pictures come from a run of every cell."
+_DRAWING = re.compile(r"^!\[.*\]\(images/", re.MULTILINE)
 
 
 def parts_of(project: Path) -> dict[str, dict[PurePosixPath, Path]]:
@@ -123,3 +124,17 @@ def _gather(sources: Path, runs: Mapping[str, NotebookNode | None], project: Pat
 def _table_of_contents(part: str, pages: Iterable[PurePosixPath]) -> str:
     entries = "\n".join(page.with_suffix("").as_posix() for page in pages)
     return f"```{{toctree}}\n:caption: {part}\n:maxdepth: 1\n\n{entries}\n```\n"
+
+
+def week_page(notebook: NotebookNode) -> str | None:
+    """Return a chapter's page as Markdown, with links relative to the chapter, or None if it has no drawing."""
+    texts = {cell.id: cell.source for cell in notebook.cells if cell.cell_type == "markdown"}
+    drawn = [text for text in (texts.get("diagram", ""), *texts.values()) if _DRAWING.search(text)]
+    if not drawn:
+        return None
+    title, *paragraphs = texts["title"].split("\n\n")
+    outcomes = (text for text in paragraphs if text.startswith(("**After", "- ")))
+    drawing = next(line for line in drawn[0].splitlines() if _DRAWING.match(line))
+    _, _, conventions = texts.get("conventions", "").partition("\n\n")
+    table = conventions.split("\n\n")[0]
+    return "\n\n".join(part for part in (title, *outcomes, drawing, table) if part) + "\n"

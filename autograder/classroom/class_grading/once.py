@@ -28,13 +28,7 @@ from course_cli.ending import batch_status
 
 
 def grade_once(console: Console, request: BatchRequest) -> int:
-    """Grade a batch; return the exit status: 0 if every submission has a grade in the gradebook.
-
-    Raises:
-        CourseError: there is nothing to grade.
-        UnusableExercise: the exercise's author has to correct the exercise.
-        Exception: the exceptions of `prepared`.
-    """
+    """Grade a batch; return the exit status: 0 if every submission has a grade in the gradebook."""
     collection = collect(request.submitted)
     works = select(collection.works, request.students, request.exercises)
     is_entered = True

@@ -45,7 +45,6 @@ class File:
 
         Raises:
             Refused: the file has more than `limit` bytes or cannot be read.
-            CourseError: more than MAX_TOTAL_BYTES would be read of this download.
         """
         try:
             with self.open() as file:
@@ -84,11 +83,7 @@ class Download:
 
 @contextmanager
 def open_download(path: Path) -> Iterator[Download]:
-    """Open a zip file or a folder.
-
-    Raises:
-        CourseError: `path` is neither a zip file nor a folder, or it has too many files.
-    """
+    """Open a zip file or a folder."""
     budget = Budget()
     if path.is_dir():
         yield _sorted(_from_folder(path, budget))

@@ -43,7 +43,6 @@ def film(
 
     Raises:
         ValueError: the span is too long, or there is no such camera.
-        UnusableRecording: the recording was made with another robot or scene.
         NoOpenGLError: this machine cannot draw pictures.
     """
     duration = (span.end - span.start) / speed

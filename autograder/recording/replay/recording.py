@@ -86,11 +86,7 @@ class Recording:
 
     @classmethod
     def parsed(cls, file: IO[bytes], path: Path) -> Recording:
-        """Read an open file.
-
-        Raises:
-            UnusableRecording: the file is not a recording, is damaged, or was written by another version.
-        """
+        """Read an open file."""
         try:
             reader = make_reader(file, validate_crcs=True)
             about = _metadata(path, reader.iter_metadata())
@@ -123,11 +119,7 @@ class Recording:
         return min(failed, key=lambda moment: moment.t, default=None)
 
     def verdict(self, check: str) -> Moment:
-        """Return the verdict of a check.
-
-        Raises:
-            UnusableRecording: the check did not judge this run; the message lists the checks that did.
-        """
+        """Return the verdict of a check."""
         verdicts = {moment.check: moment for moment in reversed(self.moments) if moment.check}
         if check in verdicts:
             return verdicts[check]
@@ -247,7 +239,6 @@ def span_of(recording: Recording, around: str | None, seconds: float | None) -> 
         seconds: length of the part, or None; if no check failed, the part starts at the beginning.
 
     Raises:
-        UnusableRecording: there is no such check.
         ValueError: the duration is not positive.
     """
     if seconds is not None and not seconds > 0:

@@ -101,7 +101,7 @@ from autograder.engine.essay import load_essay
 from autograder.engine.exercise import all_names, essay_names, exercise_names, load_exercise
 for name in exercise_names():
     exercise = load_exercise(name, hidden=True)
-    assert not exercise.has_hidden_checks and exercise.checks
+    assert exercise.checks and not any(check.hidden for check in exercise.checks)
 for name in essay_names():
     assert load_essay(name).criteria
 print(*all_names())

@@ -45,7 +45,7 @@ def exercise():
 
         judge.__name__ = name
         checks.append(check(points=1, on=Scenario("ask"), needs=checks[-1:])(judge))
-    return Exercise("service", Path("service"), checks, False)
+    return Exercise("service", Path("service"), checks)
 
 
 def read(folder, kind):

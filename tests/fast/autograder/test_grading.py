@@ -40,7 +40,7 @@ def transcript(scenario, *, lag=0.0, mark=None, scale=5.0):
 
 
 def exercise(*checks):
-    return Exercise("anything", Path("anything"), checks, False)
+    return Exercise("anything", Path("anything"), checks)
 
 
 @pytest.fixture

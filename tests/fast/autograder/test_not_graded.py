@@ -58,7 +58,7 @@ PLACES = {
     ),
     HOLDS_UP: (f"{ENGINE}/completeness.py _require_simulated_time require_whole",),
     LATE: (f"{ENGINE}/completeness.py _require_effects",),
-    FLOODS: (f"{ENGINE}/bounds.py _require_nothing_dropped",),
+    FLOODS: (f"{ENGINE}/completeness.py _require_nothing_dropped",),
     NEVER_SHOWS: (
         f"{AUTHORING}/diagnosis/missing.py not_shown",
         f"{AUTHORING}/walking/client_run.py started",

@@ -96,7 +96,7 @@ def test_inputs_of_visible_checks_have_the_same_seed_in_every_batch(tmp_path, mo
     ]
     monkeypatch.setattr(grading, "run_in_arena", look)
     monkeypatch.setattr(grading, "require_hidden", lambda paths: None)
-    exercise = Exercise("made_up", tmp_path, checks, True)
+    exercise = Exercise("made_up", tmp_path, checks)
     isolation = Isolation(Kind.NAMESPACES, "as a test says")
     options = grading.GradingOptions(seed=77, isolation=isolation)
     grading.grade(Submission("made_up", "anna", {}), exercise, options)

@@ -189,9 +189,8 @@ def test_a_notebook_that_says_how_long_it_takes_says_what_the_start_page_says() 
 
 @pytest.mark.parametrize("page", sorted(DOCS.glob("*.md")), ids=lambda page: page.stem)
 def test_the_links_of_a_page_lead_somewhere(page: Path) -> None:
-    base = (
-        ROOT if page.stem == "for_students" else page.parent
-    )  # it becomes the README of the students' archive
+    # it becomes the README of the students' archive
+    base = ROOT if page.stem == "for_students" else page.parent
     links = re.findall(r"\]\(([^)\s#]+)", page.read_text())
     assert [link for link in links if "://" not in link and not (base / link).exists()] == []
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from autograder.classroom.batch.batch_record import BATCH, BatchRecord, Row, read_batch
 from autograder.classroom.batch.cache import CachedGrade, GradeCache
 from autograder.classroom.batch.collection import Work
-from autograder.classroom.batch.effort import Effort
+from autograder.classroom.batch.job import Effort
 from autograder.classroom.batch.records import GRADES, read_grades
 from autograder.classroom.batch.runner import Graded
 from autograder.classroom.batch.seeds import Seeds
