@@ -13,7 +13,6 @@ from autograder.classroom.audit.fault_patch import SUFFIX, as_patch
 from autograder.classroom.audit.generated.run import audit_generated, mutant_named
 from autograder.classroom.audit.kill_matrix import kill_matrix, print_progress
 from autograder.classroom.audit.known_submission import KnownSubmission, known_submission, known_submissions
-from autograder.classroom.audit.leftovers import leftovers
 from autograder.classroom.audit.run import AuditedRun
 from autograder.classroom.audit.run import audit as audit_submissions
 from autograder.engine.exercise import Exercise, exercise_names, load_exercise
@@ -98,7 +97,6 @@ def audit(
     earlier = read_runs(json_file) if resume and json_file else ()
     record = AuditRecord(json_file, isolation=available_isolation(), scale=scale, earlier=earlier)
     exercises = (load_exercise(name, hidden=True) for name in ([exercise] if exercise else exercise_names()))
-    left: list[str] = []
     try:
         if generated:
             judged = [
@@ -110,13 +108,12 @@ def audit(
             ]
             found, is_as_expected = len(judged), all(one.noticed_by for one in judged)
         else:
-            with leftovers() as left:
-                runs = [
-                    run
-                    for one in exercises
-                    for run in _audit(console, one, record, only, jobs=jobs, repeat=repeat, seed=seed)
-                ]
-            found, is_as_expected = len(runs), not (left or any(run.surprises() for run in runs))
+            runs = [
+                run
+                for one in exercises
+                for run in _audit(console, one, record, only, jobs=jobs, repeat=repeat, seed=seed)
+            ]
+            found, is_as_expected = len(runs), not any(run.surprises() for run in runs)
     except KeyboardInterrupt:
         advice = (
             f"{json_file} has the finished gradings: add --resume to continue."
@@ -126,8 +123,6 @@ def audit(
         raise CommandFailed(f"Interrupted. {advice}") from None
     if not found:
         raise CourseError(f"no {'mutant' if generated else 'submission'} matches {only!r}")
-    for line in left:
-        console.print(f"left behind: {line}", style="red", markup=False)
     raise typer.Exit(0 if is_as_expected else COMMAND_FAILED)
 
 

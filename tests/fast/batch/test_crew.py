@@ -80,7 +80,9 @@ def test_an_ungraded_job_is_repeated_alone_at_the_end() -> None:
         tries[job.student] += 1
         beside[job.student] = len(running) - 1
         busy = job.student == "always" or (job.student == "at first" and tries[job.student] == 1)
-        grade = Grade(job.exercise, job.student, "", reason="the machine was too busy") if busy else passes(job)
+        grade = (
+            Grade(job.exercise, job.student, "", reason="the machine was too busy") if busy else passes(job)
+        )
         running.remove(job.student)
         return Outcome(grade, retry_may_succeed=busy)
 
