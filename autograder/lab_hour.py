@@ -44,11 +44,7 @@ class Shared(BaseModel):
 
 
 def share(grade: Grade, place: str = "") -> str:
-    """Write what a self-check found to the class's folder; return a sentence that says what is shared.
-
-    Raises:
-        CannotShare: the class has no shared folder, or it cannot be written.
-    """
+    """Write what a self-check found to the class's folder; return a sentence that says what is shared."""
     path = _own_entry()
     first = next((check.title for check in grade.checks if check.status != "passed"), "")
     before = _read(path)

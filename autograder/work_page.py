@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from datetime import datetime
 from importlib.metadata import distributions
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 from markdown_it import MarkdownIt
@@ -24,10 +23,9 @@ from autograder.engine.exercise import exercises_folder
 from autograder.engine.notebook import text_of_cell
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import Grade
-from autograder.recording.kept import SUFFIX, keep
 from autograder.recording.recorder import Recorder
 from autograder.recording.replay.film import film
-from autograder.recording.replay.recording import Recording, Span
+from autograder.recording.replay.recording import Recording, Span, recordings_in
 from autograder.recording.replay.text import time_line
 from autograder.report.rendering import write_html
 from autograder.report.sequence import transcript_svg
@@ -88,27 +86,20 @@ def write_work_page(page: Path, submission: Submission, grade: Grade, recorder: 
 
 def _shown(grade: Grade, recorder: Recorder) -> Shown:
     """Show the run in which the robot moves most."""
-    with TemporaryDirectory() as temporary:
-        folder = Path(temporary)
-        keep(folder, recorder.files(grade))
-        recordings = [Recording.read(path) for path in sorted(folder.glob(f"*{SUFFIX}"))]
-        most = max(recordings, key=_motion, default=None)
-        if most is None or _motion(most) == 0:
-            return _drawn(recorder, "No robot moves in these checks")
-        speed = max(1, int(np.ceil(most.end / FILM_DURATION)))
-        file = folder / "film.webp"
-        try:
-            film(most, Span(0.0, most.end), file, speed=speed)
-        except NoOpenGLError:
-            return _drawn(recorder, "This page was made on a machine without OpenGL")
-        still = io.BytesIO()
-        with Image.open(file) as frames:
-            frames.seek(frames.n_frames // 2)
-            frames.save(still, "WEBP")
-        lines = [line.plain for line in time_line(most)]
-        return Shown(
-            most.about["scenario"], _data_url(file.read_bytes()), _data_url(still.getvalue()), speed, lines
-        )
+    most = max(recordings_in(recorder.files(grade)), key=_motion, default=None)
+    if most is None or _motion(most) == 0:
+        return _drawn(recorder, "No robot moves in these checks")
+    speed = max(1, int(np.ceil(most.end / FILM_DURATION)))
+    webp, still = io.BytesIO(), io.BytesIO()
+    try:
+        film(most, Span(0.0, most.end), webp, speed=speed)
+    except NoOpenGLError:
+        return _drawn(recorder, "This page was made on a machine without OpenGL")
+    with Image.open(webp) as frames:
+        frames.seek(frames.n_frames // 2)
+        frames.save(still, "WEBP")
+    lines = [line.plain for line in time_line(most)]
+    return Shown(most.about["scenario"], _data_url(webp), _data_url(still), speed, lines)
 
 
 def _motion(recording: Recording) -> float:
@@ -131,8 +122,8 @@ def _drawn(recorder: Recorder, no_film: str) -> Shown:
     return Shown(run.scenario, no_film=no_film, drawing=drawing)
 
 
-def _data_url(content: bytes) -> str:
-    return f"data:image/webp;base64,{base64.b64encode(content).decode()}"
+def _data_url(webp: io.BytesIO) -> str:
+    return f"data:image/webp;base64,{base64.b64encode(webp.getvalue()).decode()}"
 
 
 def _highlighted(name: str, text: str) -> Markup:

@@ -19,7 +19,7 @@ import typer
 from rich.console import Console
 from typer.core import TyperGroup
 
-from course_cli.ending import error_exit, user_message
+from course_cli.ending import user_message
 from ros_runtime.course_error import CourseError
 from ros_runtime.project import COURSE, PROJECT
 
@@ -146,7 +146,8 @@ class _Course(TyperGroup):
         try:
             return super().invoke(ctx)
         except CourseError as error:
-            raise error_exit(Console(highlight=False), error, error.exit_status) from error
+            Console().print(str(error), style="red", markup=False, highlight=False, soft_wrap=True)
+            raise typer.Exit(error.exit_status) from error
 
 
 def app(chosen: str | None) -> typer.Typer:

@@ -4,14 +4,8 @@ from __future__ import annotations
 
 import errno
 
-import typer
-from rich.console import Console
+from ros_runtime.course_error import COMMAND_FAILED, NOT_GRADED
 
-from ros_runtime.course_error import COMMAND_FAILED, UNUSABLE
-
-__all__ = ["COMMAND_FAILED", "NOT_GRADED", "UNUSABLE", "batch_status", "error_exit", "user_message"]
-
-NOT_GRADED = 3  # the grader could not judge a submission
 FULL_DISK = (
     "course: the disk is full. Files that were complete before are intact.\n"
     "Next: make room, then type the same command again; `course grade` continues with --resume."
@@ -20,12 +14,6 @@ NO_PERMISSION = (
     "course: no permission for {path}.\n"
     "Next: give a folder that you can write to with --out, or change into one, then type the same command again."
 )
-
-
-def error_exit(console: Console, reason: object, status: int) -> typer.Exit:
-    """Print the reason in red, and return the exception to raise."""
-    console.print(str(reason), style="red", markup=False)
-    return typer.Exit(status)
 
 
 def batch_status(*, not_graded: int, complete: bool) -> int:

@@ -44,7 +44,7 @@ def secret(run: Transcript) -> None:
 
 
 def exercise(*checks: Check) -> Exercise:
-    return Exercise("walk_to", Path("walk_to"), checks or (accepts, stays_up), False)
+    return Exercise("walk_to", Path("walk_to"), checks or (accepts, stays_up))
 
 
 def simulated(

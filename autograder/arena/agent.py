@@ -18,7 +18,7 @@ from pathlib import Path
 from types import ModuleType
 
 import rclpy
-from rclpy.executors import SingleThreadedExecutor
+from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
@@ -30,12 +30,12 @@ from autograder.arena.robots import Robots
 from autograder.arena.scenario_spec import ScenarioSpec
 from autograder.arena.scheduling_monitor import watch_scheduling
 from autograder.arena.simulator import Simulator
-from autograder.arena.spinning import keep_spinning
 from autograder.arena.stage import NodeMissing, Stage
 from autograder.arena.student import Student
 from ros_runtime.workarounds.scaled_clock.clock import ScaledClock, follow, library_path
 
 SCENARIOS = "scenarios_of_the_exercise"  # the name of their module
+RCLPY_ERRORS = (RuntimeError, UnicodeError, MemoryError)  # what rclpy can raise for an unreadable message
 
 
 @cache
@@ -142,3 +142,19 @@ def _perform(
 def _bare_node(name: str, namespace: str) -> Node:
     """Make a node without parameter services and rosout, so that other nodes have less to discover."""
     return rclpy.create_node(name, namespace=namespace, start_parameter_services=False, enable_rosout=False)
+
+
+def keep_spinning(executor: Executor, log: ArenaLog) -> None:
+    """Spin until the context is shut down; count unreadable messages; an error of the grader fails the scenario."""
+    while executor.context.ok():
+        try:
+            executor.spin_once()
+        except ExternalShutdownException:
+            return
+        except RCLPY_ERRORS:
+            traceback.print_exc()
+            log.drop("unreadable")
+        except Exception as error:
+            traceback.print_exc()
+            log.append(ev.ScenarioFailed(reason=f"{type(error).__name__}: {error}"))
+            return

@@ -23,6 +23,13 @@ def in_words(see: str) -> str:
     return f"chapters/{chapter}.ipynb" + (f", “{heading}”" if heading else "")
 
 
+def address(see: str) -> str:
+    """Return the address of the lesson, as a link in an exercise's notebook."""
+    chapter, _, cell = see.partition("#")
+    heading = _headings(chapter).get(cell, "").replace(" ", "-")
+    return see if "://" in see else f"../../chapters/{chapter}.ipynb" + (f"#{heading}" if heading else "")
+
+
 def is_there(see: str) -> bool:
     """Return whether the cell exists; a URL is not checked."""
     chapter, _, cell = see.partition("#")

@@ -23,10 +23,6 @@ DAY = timedelta(days=1)
 _END_OF_DAY = time(23, 59, 59)
 
 
-class UnusableDates(CourseError):
-    """dates.yaml cannot be used; the message says which line or entry is wrong, and what is expected."""
-
-
 def _moment(value: Any) -> Any:
     """Return the end of the day for a date without a time; any other value unchanged."""
     try:
@@ -196,11 +192,7 @@ def _days(count: int) -> str:
 
 
 def read_deadlines(given: Path | None, beside: Path) -> Deadlines | None:
-    """Read the dates of a course: from `given`, or from dates.yaml in the folder that contains `beside`, if it exists.
-
-    Raises:
-        UnusableDates: the file cannot be read, or an entry is wrong.
-    """
+    """Read the dates of a course from `given`, or from dates.yaml in the folder around `beside`, if it exists."""
     path = given or beside.resolve().parent / DATES
     if not given and not path.exists():
         return None
@@ -208,19 +200,17 @@ def read_deadlines(given: Path | None, beside: Path) -> Deadlines | None:
         content = yaml.load(path.read_text(encoding="utf-8"), _Strict) or {}
         dates = Dates.model_validate(content)
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        raise UnusableDates(f"{path} cannot be read: {error}") from error
+        raise CourseError(f"{path} cannot be read: {error}") from error
     except ValidationError as error:
         first = error.errors()[0]
         place = " > ".join(map(str, first["loc"])) or "the file"
-        raise UnusableDates(f"{path}: {place}: {first['msg']}, found {first['input']!r:.80}") from error
+        raise CourseError(f"{path}: {place}: {first['msg']}, found {first['input']!r:.80}") from error
     named = {
         *dates.due,
         *(name for each in (dates.extensions, dates.handed_in) for of in each.values() for name in of),
     }
     if unknown := sorted(named - set(all_names())):
-        raise UnusableDates(
-            f"{path}: there is no exercise {unknown[0]!r}; there are {', '.join(all_names())}"
-        )
+        raise CourseError(f"{path}: there is no exercise {unknown[0]!r}; there are {', '.join(all_names())}")
     return Deadlines(path, dates)
 
 

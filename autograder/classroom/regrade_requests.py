@@ -66,7 +66,6 @@ def read_state(folder: Path) -> list[RegradeRequest]:
     """Read requests.csv, in which a person writes the decisions.
 
     Raises:
-        UnusableRequests: a row has no number, or another state than STATES.
         UnusableBatch: the file is not a table.
     """
     path = folder / TABLE
@@ -93,7 +92,6 @@ def new_requests(inbox: Path, known: Sequence[RegradeRequest]) -> list[RegradeRe
     """Read the forms and tables in a folder, or one table; return the requests that are not known yet.
 
     Raises:
-        UnusableRequests: a form has no student, exercise or check.
         UnusableBatch: a table cannot be read.
     """
     paths = sorted(inbox.iterdir()) if inbox.is_dir() else [inbox]
@@ -218,11 +216,7 @@ def find_check(grade: Grade, asked: str) -> CheckVerdict | None:
 
 
 def collect_evidence(request: RegradeRequest, graded: Path, folder: Path, jobs: int) -> Evidence:
-    """Grade the submission of a request again, as it was graded, with recordings, and write the draft of the reply.
-
-    Raises:
-        UnusableRequests: there is no such grade, program or check, or the program has changed since.
-    """
+    """Grade the submission of a request again, as it was graded, with recordings, and write the draft of the reply."""
     before = next(
         (
             grade

@@ -24,12 +24,7 @@ class Essay:
 
 
 def load_essay(name: str) -> Essay:
-    """Load an essay.
-
-    Raises:
-        UnknownExercise: there is none of that name.
-        UnusableExercise: its author has something to fix.
-    """
+    """Load an essay."""
     module = exercise_module(name, RUBRIC)
     try:
         return Essay(name, exercises_folder() / name, criteria_in(module), picture_in(module))

@@ -16,15 +16,17 @@ import ast
 import hashlib
 import importlib
 import os
+import re
 import sys
 import traceback
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
-from autograder.engine.clauses import clauses_in, in_words
+from autograder.engine.notebook import text_of_cell
 from ros_runtime.course_error import CourseError
 from ros_runtime.project import PROJECT
 
@@ -33,6 +35,8 @@ if TYPE_CHECKING:
 
 FOLDER_VARIABLE = "COURSE_EXERCISES"  # inherited by the processes that a command starts
 SCENARIO_FILE, CHECKS, HIDDEN, RUBRIC = "scenarios.py", "checks", "hidden", "rubric"
+_CLAUSE = re.compile(r"^(\d+)\. +(.+(?:\n(?!\d+\. |\n).+)*)", re.MULTILINE)
+_MARKUP = re.compile(r"[`*]")
 
 
 class UnknownExercise(CourseError):
@@ -50,7 +54,6 @@ class Exercise:
     name: str
     folder: Path
     checks: Sequence[Check]
-    has_hidden_checks: bool
 
     @property
     def file_names(self) -> tuple[str, ...]:
@@ -79,11 +82,7 @@ def exercises_folder() -> Path:
 
 
 def use_exercises_of(folder: Path) -> None:
-    """Work with the exercises of this folder from here on, in this process and those it starts.
-
-    Raises:
-        UnusableExercise: the folder holds none.
-    """
+    """Work with the exercises of this folder from here on, in this process and those it starts."""
     if not _names_in(folder, CHECKS, RUBRIC):
         raise UnusableExercise(f"{folder} holds no exercise; expected {folder}/<exercise>/{CHECKS}.py")
     os.environ[FOLDER_VARIABLE] = str(folder.resolve())
@@ -106,11 +105,7 @@ def all_names() -> list[str]:
 
 
 def file_names(exercise: str) -> tuple[str, ...]:
-    """Return the names of the files a student writes: one program, unless the exercise's __init__.py lists FILES.
-
-    Raises:
-        UnknownExercise: there is none of that name; the message lists those there are.
-    """
+    """Return the names of the files a student writes: one program, unless the exercise's __init__.py lists FILES."""
     return getattr(exercise_module(exercise), "FILES", (f"{exercise}.py",))
 
 
@@ -120,12 +115,7 @@ def scenario_file(exercise: str) -> Path:
 
 
 def load_exercise(name: str, *, hidden: bool) -> Exercise:
-    """Load an exercise with or without its hidden checks.
-
-    Raises:
-        UnknownExercise: there is none of that name, or a person marks it; the message lists those there are.
-        UnusableExercise: its author has something to fix.
-    """
+    """Load an exercise with or without its hidden checks."""
     # Imported late: it takes time, and a command that lists names does not need it.
     from autograder.authoring.checks import checks_in
 
@@ -133,25 +123,19 @@ def load_exercise(name: str, *, hidden: bool) -> Exercise:
         raise UnknownExercise(f"{name} has no checks: a person marks it")
     folder = exercises_folder() / name
     checks = visible = checks_in(exercise_module(name, CHECKS))
-    has_hidden = (folder / f"{HIDDEN}.py").exists()
-    if hidden and has_hidden:
+    if hidden and (folder / f"{HIDDEN}.py").exists():
         also = checks_in(exercise_module(name, HIDDEN), excluded=visible)
         checks = visible + [replace(check, hidden=True) for check in also]
     statement = clauses_in(folder / f"{name}.ipynb")
-    checks = [replace(check, promise=in_words(statement, check.clauses)) for check in checks]
-    exercise = Exercise(name, folder, checks, has_hidden)
+    checks = [replace(check, promise=clauses_in_words(statement, check.clauses)) for check in checks]
+    exercise = Exercise(name, folder, checks)
     _require_sound_checks(exercise)
     _require_scenarios(exercise)
     return exercise
 
 
 def exercise_module(exercise: str, module: str = "") -> ModuleType:
-    """Import a module of an exercise's folder, or, without a name, the folder as a package.
-
-    Raises:
-        UnknownExercise: there is no such exercise.
-        UnusableExercise: the module cannot be imported.
-    """
+    """Import a module of an exercise's folder, or, without a name, the folder as a package."""
     folder = exercises_folder()
     if exercise not in all_names():
         raise UnknownExercise(
@@ -223,3 +207,20 @@ def _require_scenarios(exercise: Exercise) -> None:
             f"{wanted[missing[0]]} of {exercise.name} is judged on the scenario {missing[0]!r}, which {path} does not "
             f"define; it has {', '.join(sorted(defined))}"
         )
+
+
+@cache
+def clauses_in(notebook: Path) -> Mapping[int, str]:
+    """Return the clauses by number, each as one line of plain text; empty without a readable notebook."""
+    return {
+        int(number): " ".join(_MARKUP.sub("", text).split())
+        for number, text in _CLAUSE.findall(text_of_cell(notebook, "task"))
+    }
+
+
+def clauses_in_words(clauses: Mapping[int, str], numbers: Sequence[int]) -> str:
+    """Return some clauses to read: 'clause 4, “Every request is answered at once …”'."""
+    known = [number for number in numbers if number in clauses]
+    if len(known) > 1:
+        return "clauses " + ", ".join(f"{number} (“{clauses[number]}”)" for number in known)
+    return f"clause {known[0]}, “{clauses[known[0]]}”" if known else ""

@@ -21,13 +21,14 @@ from autograder.engine.arena_run import ArenaRun, NotGraded, run_in_arena
 from autograder.engine.clock_scale import ClockScale
 from autograder.engine.exercise import Exercise, exercises_folder
 from autograder.engine.judging import failed_scenarios, judge, verdict_on, verdict_without_run
-from autograder.engine.path_exposure import HiddenChecksRefused, require_hidden
+from autograder.engine.path_exposure import require_hidden
 from autograder.engine.simulation_lag import MAX_LAG, RETRY_LAG, lateness
 from autograder.engine.stop import Stop, Stopped
 from autograder.engine.submission import Submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckStatus, CheckVerdict, Grade
 from autograder.isolation.availability import Isolation, available_isolation
+from ros_runtime.course_error import CommandFailed
 
 Runs = dict[Scenario, Future[Transcript]]
 
@@ -93,12 +94,11 @@ def grade(
 
     Raises:
         Stopped: `stop` was set before the last verdict.
-        HiddenChecksRefused: there are hidden checks, and arenas cannot be isolated here or could read them.
     """
     isolation = options.isolation or available_isolation()
     if any(check.hidden for check in exercise.checks):
         if not isolation.trusted:
-            raise HiddenChecksRefused(f"hidden checks need isolated arenas: {isolation.reason}")
+            raise CommandFailed(f"hidden checks need isolated arenas: {isolation.reason}")
         require_hidden([exercise.folder, exercises_folder()])
     options = replace(options, isolation=isolation)
     with nullcontext(arenas) if arenas else SubmissionArenas(exercise.scenario_file, isolation.kind) as ours:

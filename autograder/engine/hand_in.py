@@ -180,7 +180,6 @@ def work_in(folder: Path, exercise: str, *, depth: int = MOST_FOLDERS) -> tuple[
 
     Raises:
         OSError: the folder cannot be read.
-        UnknownExercise: there is none of that name.
     """
     found = candidates_in(folder, {exercise: file_names(exercise)}, depth=depth).get(exercise)
     if not found:

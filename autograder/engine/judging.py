@@ -7,15 +7,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from autograder.authoring import lesson
 from autograder.authoring.checks import Check, Scenario
 from autograder.authoring.diagnosis.exit_diagnosis import SANDBOX_FOLDER
 from autograder.authoring.diagnosis.readiness import require_ready, require_started
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import CannotBeJudged, Failure, NoOccasion
-from autograder.engine.bounds import require_bounded
-from autograder.engine.completeness import require_whole
+from autograder.authoring.lesson import in_words
+from autograder.engine.completeness import require_bounded, require_whole
 from autograder.engine.verdict import CheckStatus, CheckVerdict
 
 LOG_LINES = 40
@@ -32,12 +31,14 @@ def judge(check: Check, transcripts: Sequence[Transcript], *, is_last_attempt: b
         _require_evidence(check, transcripts)
         check.run(transcripts)
     except Failure as failure:
+        see = failure.see or check.see
         return verdict_on(
             check,
             "failed",
             expected=failure.expected,
             observed=_with_steps(failure),
-            help=_with_lesson(failure.help, failure.see or check.see),
+            help=f"{failure.help} Read {in_words(see)}." if see else failure.help,
+            lesson=see,
             robot_time=failure.at,
             log=log,
         )
@@ -87,10 +88,6 @@ def failed_scenarios(check: Check, transcripts: Sequence[Transcript]) -> list[Sc
 def _with_steps(failure: Failure) -> str:
     """Return what was observed and, in a scenario that is a sequence, the steps that led to it."""
     return f"{failure.observed}; steps: {', '.join(failure.steps)}" if failure.steps else failure.observed
-
-
-def _with_lesson(help: str, see: str) -> str:
-    return f"{help} Read {lesson.in_words(see)}." if see else help
 
 
 def verdict_on(check: Check, status: CheckStatus, *, points: float = 0, **found: Any) -> CheckVerdict:

@@ -13,13 +13,7 @@ from pathlib import Path
 
 from autograder.engine.submission_arena import student_paths
 from autograder.isolation.bubblewrap import SYSTEM_PATHS
-from ros_runtime.course_error import COMMAND_FAILED, CourseError
-
-
-class HiddenChecksRefused(CourseError):
-    """Hidden checks would be exposed to the submission on this machine."""
-
-    exit_status = COMMAND_FAILED
+from ros_runtime.course_error import CommandFailed
 
 
 def require_hidden(hidden: Iterable[Path], shown: Iterable[str | Path] | None = None) -> None:
@@ -28,15 +22,12 @@ def require_hidden(hidden: Iterable[Path], shown: Iterable[str | Path] | None = 
     Args:
         hidden: solutions, hidden checks, submissions, grades; they need not exist yet.
         shown: the paths that sandboxes can read; None: those that students' sandboxes can read on this machine.
-
-    Raises:
-        HiddenChecksRefused: a hidden path lies in a readable one.
     """
     shown = [*SYSTEM_PATHS, *student_paths()] if shown is None else list(shown)
     for path in hidden:
         for folder in shown:
             if Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder)):
-                raise HiddenChecksRefused(
+                raise CommandFailed(
                     f"nothing is graded: {path} lies in {folder}, which students' programs can read; "
                     "move it to a folder that they cannot, such as one in /srv or in your home"
                 )

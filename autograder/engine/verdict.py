@@ -18,7 +18,8 @@ LENGTH_NOTE = 40  # characters, at most, of the note that replaces the cut part
 class CheckVerdict:
     """The result of one check; `robot_time` is the time of the observation, s on the arena's clock.
 
-    `promise` quotes the clause that the check judges: 'clause 4, “Every request …”'.
+    `promise` quotes the clause that the check judges: 'clause 4, “Every request …”'. `lesson` is what a failure refers
+    to, CHAPTER#cell or a URL; "" for none.
     For an essay: the points that a person gave for one criterion ("marked"), or none yet ("to mark").
     """
 
@@ -34,6 +35,7 @@ class CheckVerdict:
     log: str = ""
     hidden: bool = False
     promise: str = ""
+    lesson: str = ""
 
     def __post_init__(self) -> None:
         for name, most in LONGEST.items():
@@ -149,7 +151,7 @@ class Grade:
 
 def _require_sound(check: CheckVerdict) -> None:
     """Require the types and the points that a verdict can have; raises ValueError."""
-    for name in ("id", "title", "expected", "observed", "help", "log", "promise"):
+    for name in ("id", "title", "expected", "observed", "help", "log", "promise", "lesson"):
         _text(getattr(check, name))
     if check.status not in get_args(CheckStatus):
         raise ValueError(f"{check.id[:100]!r} has no status {str(check.status)[:100]!r}")

@@ -65,9 +65,8 @@ class RunningArena:
         if not ended_within(self.end_pidfd, _END_TIMEOUT):
             self.process.kill()
             return False
-        return (
-            not self._under_reaper or self.process.wait() >= 0
-        )  # a reaper that was killed may have left orphans
+        # a reaper that was killed may have left orphans
+        return not self._under_reaper or self.process.wait() >= 0
 
 
 def start_with_namespaces(spec: ArenaSpec, stack: ExitStack) -> RunningArena:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from base64 import b64encode
 from collections.abc import Sequence
 from threading import Lock
@@ -12,12 +11,11 @@ from markupsafe import Markup, escape
 
 from autograder.authoring.checks import Check
 from autograder.authoring.evidence.transcript import Transcript
+from autograder.authoring.lesson import address, in_words
 from autograder.engine.verdict import CheckVerdict
 from autograder.report.rendering import ENVIRONMENT
 from autograder.report.sequence import transcript_svg
 from autograder.report.table import MARKS, reasons
-
-_LESSON = re.compile(r"chapters/(\w+)\.ipynb(?:, “([^”]+)”)?")
 
 
 class NotebookTable:
@@ -72,20 +70,16 @@ class NotebookTable:
         }
         template = ENVIRONMENT.get_template("self_check.html")
         html = template.render(
-            judged=judged, folded=folded, drawings=self._drawings, films=self._films, with_links=with_links
+            judged=judged, folded=folded, drawings=self._drawings, films=self._films, next_step=next_step
         )
         return {"text/html": html, "text/plain": "\n".join(map(_in_text, judged))}
 
 
-def with_links(text: str) -> Markup:
-    """Return a text with links to the lessons that it names, as seen from an exercise's folder."""
-
-    def link(found: re.Match[str]) -> str:
-        heading = (found[2] or "").replace(" ", "-")
-        anchor = f"#{heading}" if heading else ""
-        return f'<a href="../../chapters/{found[1]}.ipynb{anchor}">{found[0]}</a>'
-
-    return Markup(_LESSON.sub(link, str(escape(text))))
+def next_step(verdict: CheckVerdict) -> Markup:
+    """Return the advice of a verdict, in which the lesson is a link."""
+    words = in_words(verdict.lesson)
+    link = Markup('<a href="{}">{}</a>').format(address(verdict.lesson), words)
+    return escape(verdict.help).replace(escape(words), link) if verdict.lesson else escape(verdict.help)
 
 
 def _in_text(verdict: CheckVerdict) -> str:

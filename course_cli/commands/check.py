@@ -16,9 +16,9 @@ from autograder.engine.exercise import essay_names, exercise_names, scenario_fil
 from autograder.engine.submission import UnusableSubmission, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.hand_in_notice import hidden_checks_notice
-from course_cli.ending import COMMAND_FAILED, NOT_GRADED
 from course_cli.options import CourseOption, JobsOption
 from course_cli.own_work import own_work
+from ros_runtime.course_error import COMMAND_FAILED, NOT_GRADED
 
 FILE_WIDTH = 200  # characters, of lines that go to a file or a pipe; it breaks no path
 

@@ -3,24 +3,25 @@
 from __future__ import annotations
 
 import os
+import shutil
 import sys
 from importlib.util import find_spec
 from pathlib import Path
 
 import typer
-from rich.console import Console
 
-from course_cli.ending import COMMAND_FAILED, error_exit
-from course_cli.work_folder import work_folder
 from ros_cli.real_ros2 import path_with_ros2
 from ros_runtime import notebook_domains
+from ros_runtime.course_error import CommandFailed
 from ros_runtime.environment import ros_environment
-from ros_runtime.project import PROJECT, WORK_VARIABLE
+from ros_runtime.project import COURSE, PROJECT, WORK_VARIABLE
 from ros_runtime.ros_domain import loopback_variables
 
 # Settings that turn off nbgrader's extensions: "Validate" would run the notebook, and report its timeout as a failure.
 CONFIGURATION = PROJECT / "course_cli" / "jupyter"
 HUB_TOKEN = "JUPYTERHUB_API_TOKEN"  # set by JupyterHub in the environment of a user's server
+NAME = "humanoid_course"  # of a student's own folder beside a shared installation
+PARTS = ("start_here.ipynb", "chapters", "exercises", "docs")
 
 
 def lab(context: typer.Context) -> None:
@@ -34,10 +35,9 @@ def lab(context: typer.Context) -> None:
     try:
         folder = work_folder()
     except OSError as error:
-        reason = (
+        raise CommandFailed(
             f"your notebooks cannot be saved: {error}.\nNext: COURSE_WORK=/a/folder/of/yours ./course lab"
-        )
-        raise error_exit(Console(), reason, COMMAND_FAILED) from error
+        ) from error
     # Terminals start no login shell, because /etc/profile would remove `ros2` from the PATH.
     terminals = {"shell_command": [os.environ.get("SHELL") or "bash"]}
     command = [
@@ -58,10 +58,9 @@ def _server() -> str:
         return "jupyterlab"
     if find_spec("jupyterhub") is None:
         line = f"{PROJECT}/.venv/bin/uv pip install --python {PROJECT}/.venv/bin/python jupyterhub"
-        reason = (
+        raise CommandFailed(
             f"JupyterHub started this command, but the course's environment lacks jupyterhub.\nNext: {line}"
         )
-        raise error_exit(Console(soft_wrap=True), reason, COMMAND_FAILED)
     return "jupyterhub.singleuser"
 
 
@@ -78,9 +77,39 @@ def lab_environment() -> dict[str, str]:
     environment.pop("ROS_AUTOMATIC_DISCOVERY_RANGE", None)
     commands = Path(sys.executable).parent  # at the end, for `!course submit` in a cell
     environment["PATH"] = f"{path_with_ros2(environment.get('PATH', os.defpath))}{os.pathsep}{commands}"
-    environment.pop(
-        "ROS_DOMAIN_ID", None
-    )  # each notebook has a domain of its own, which `ros2` in a terminal joins
+    # each notebook has a domain of its own, which `ros2` in a terminal joins
+    environment.pop("ROS_DOMAIN_ID", None)
     others = environment.get("JUPYTER_CONFIG_PATH")
     environment["JUPYTER_CONFIG_PATH"] = os.pathsep.join(filter(None, [str(CONFIGURATION), others]))
     return environment
+
+
+def work_folder() -> Path:
+    """Return the folder of this student's notebooks: $COURSE_WORK, else a writable course, else ~/humanoid_course.
+
+    Missing files are copied from the course; existing ones belong to the student and are never changed.
+
+    Raises:
+        OSError: the folder cannot be written.
+    """
+    chosen = os.environ.get(WORK_VARIABLE)
+    if not chosen and os.access(COURSE, os.W_OK):
+        return COURSE
+    folder = Path(chosen).absolute() if chosen else Path.home() / NAME
+    if folder != COURSE:
+        for part in PARTS:
+            _copy_missing(COURSE / part, folder / part)
+    return folder
+
+
+def _copy_missing(source: Path, place: Path) -> None:
+    """Copy a file, or the files of a folder, unless they exist already; permissions are not copied."""
+    files = sorted(source.rglob("*")) if source.is_dir() else [source]
+    for file in files:
+        # Files of other types were written by notebooks that somebody ran; they are not part of the course.
+        if not file.is_file() or file.suffix not in (".ipynb", ".md", ".png", ".gif", ".svg", ".webp"):
+            continue
+        copy = place / file.relative_to(source) if source.is_dir() else place
+        if not copy.exists():
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, copy)

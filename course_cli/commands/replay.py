@@ -8,16 +8,10 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.recording.replay.film import film, require_known_format
-from autograder.recording.replay.recording import (
-    Recording,
-    Span,
-    UnusableRecording,
-    require_postures,
-    span_of,
-)
+from autograder.recording.replay.film import film, format_of
+from autograder.recording.replay.recording import Recording, Span, require_postures, span_of
 from autograder.recording.replay.text import line, time_line, title
-from course_cli.ending import COMMAND_FAILED, UNUSABLE, error_exit
+from ros_runtime.course_error import CommandFailed, CourseError
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 
@@ -46,8 +40,7 @@ def replay(
     """Show a recorded arena: in the web view, as a film, or as text."""
     console = Console(highlight=False)
     try:
-        if film_file:
-            require_known_format(film_file)
+        kind = format_of(film_file) if film_file else "WEBP"
         recording = Recording.read(file)
         span = span_of(recording, around, seconds)
         console.print(title(recording), markup=False)
@@ -58,14 +51,14 @@ def replay(
         require_postures(recording)
         console.print(f"from {span.start:.1f} to {span.end:.1f} s", style="dim")
         if film_file:
-            frames = film(recording, span, film_file, camera=camera)
+            frames = film(recording, span, film_file, kind, camera=camera)
             console.print(f"{film_file}: {frames} frames", markup=False)
             return
         _in_the_browser(console, recording, span, port)
     except ValueError as error:
-        raise error_exit(console, error, UNUSABLE) from error
+        raise CourseError(str(error)) from error
     except (NoOpenGLError, OSError) as error:
-        raise error_exit(console, error, COMMAND_FAILED) from error
+        raise CommandFailed(str(error)) from error
 
 
 def _in_the_browser(console: Console, recording: Recording, span: Span, port: int) -> None:
@@ -80,7 +73,8 @@ def _in_the_browser(console: Console, recording: Recording, span: Span, port: in
             on_moment=lambda moment: console.print(line(moment)),
         )
     except ImportError as error:
-        reason = "the web view needs MuJoCo 4, which needs Python 3.11 or newer; use --film or --text"
-        raise error_exit(console, UnusableRecording(reason), COMMAND_FAILED) from error
+        raise CommandFailed(
+            "the web view needs MuJoCo 4, which needs Python 3.11 or newer; use --film or --text"
+        ) from error
     except KeyboardInterrupt:
         return

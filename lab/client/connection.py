@@ -159,7 +159,6 @@ class Connection:
                 self._executor.spin()
             except ExternalShutdownException:
                 return
-            except (
-                Exception
-            ):  # a callback or listener of the notebook raised: print the error and keep spinning
+            except Exception:
+                # a callback or listener of the notebook raised: print the error and keep spinning
                 traceback.print_exc()

@@ -16,9 +16,8 @@ from lab.learning.gap import not_yet
 from lab.running.student_nodes import StudentNode
 
 TO_END = 1.0  # s; long enough for a node to exit after an exception
-HINTS = {
-    "TypeError": "end each path of the callback with `return response`"
-}  # rclpy's message does not explain it
+# rclpy's message does not explain it
+HINTS = {"TypeError": "end each path of the callback with `return response`"}
 NO_HINTS: Mapping[str, str] = {}
 
 

@@ -12,7 +12,7 @@ from lab.client.interaction_log import log
 from lab.client.messages import Message
 from lab.errors import LabError
 from ros_runtime.drawing.sequence_diagram import sequence_svg
-from ros_runtime.drawing.xml_text import shorten
+from ros_runtime.drawing.svg import shorten
 
 LABEL_LENGTH = 38  # characters that fit between two lifelines
 

@@ -15,8 +15,7 @@ from lab.pictures.figure import BLUE, GREY, VERMILION
 from lab.pictures.slider import slide
 from lab.pictures.thread_plot import NO_THREAD, Span, plot_spans, read_steps, spans_of
 from lab.running.student_nodes import StudentNode
-from ros_runtime.drawing.svg import svg
-from ros_runtime.drawing.xml_text import escape
+from ros_runtime.drawing.svg import escape, svg
 
 WIDTH, ROW, ABOVE = 700, 56, 58  # px
 NAME_X, GROUP_X, THREAD_X, RUNS_X = 12, 190, 430, 600  # px, where the parts of a row begin

@@ -16,7 +16,7 @@ from lab.pictures.labels import ROW, Mark, overhang, rows_of, text_width
 from lab.running.processes import ProcessHistory
 from lab.running.programs import Program
 from lab.running.student_nodes import StudentNode
-from ros_runtime.drawing.xml_text import shorten
+from ros_runtime.drawing.svg import shorten
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,9 +7,8 @@ from pathlib import Path
 
 from ros_runtime.project import WORK
 
-_notebooks = (
-    Path()
-)  # a kernel starts in this folder; the path is made absolute when the working directory changes
+# a kernel starts in this folder; the path is made absolute when the working directory changes
+_notebooks = Path()
 
 
 def notebook_folder() -> Path:

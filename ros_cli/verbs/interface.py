@@ -45,22 +45,14 @@ def print_list(options: Namespace) -> None:
 
 
 def print_definition(options: Namespace) -> None:
-    """Print a definition; the fields of nested types are indented by tabs.
-
-    Raises:
-        CommandError: there is no such interface.
-    """
+    """Print a definition; the fields of nested types are indented by tabs."""
     name = sys.stdin.readline().strip() if options.type == "-" else options.type
     for line in definition(name, comments=not options.no_comments, nested_comments=options.all_comments):
         print(line)
 
 
 def definition(name: str, *, comments: bool = True, nested_comments: bool = False) -> Iterator[str]:
-    """Yield the lines of an interface's file, each followed by the definition of the type it nests.
-
-    Raises:
-        CommandError: there is no such interface.
-    """
+    """Yield the lines of an interface's file, each followed by the definition of the type it nests."""
     package = name.split("/")[0]
     for line in _file(name).read_text(encoding="utf-8").splitlines():
         code = line.partition("#")[0].strip()
@@ -81,11 +73,7 @@ def _nested_type(code: str, package: str) -> str | None:
 
 
 def _file(name: str) -> Path:
-    """Return the file that defines an interface.
-
-    Raises:
-        CommandError: there is no such file.
-    """
+    """Return the file that defines an interface."""
     parts = name.split("/")
     if len(parts) != 3 or parts[1] not in TITLES:
         raise CommandError(

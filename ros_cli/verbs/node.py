@@ -26,11 +26,7 @@ def add_verbs(verbs: Verbs) -> None:
 
 
 def print_info(options: Namespace) -> None:
-    """Print a node's subscriptions, publishers, services and actions.
-
-    Raises:
-        CommandError: there is no such node.
-    """
+    """Print a node's subscriptions, publishers, services and actions."""
     name = absolute(options.node_name)
     with CommandNode(options.spin_time) as command:
         command.discover(lambda: name in command.node_names(hidden=True))

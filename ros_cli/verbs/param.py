@@ -44,11 +44,7 @@ def add_verbs(verbs: Verbs) -> None:
 
 
 def print_list(options: Namespace) -> None:
-    """Print the names of the parameters of one node or of all nodes.
-
-    Raises:
-        CommandError: there is no such node.
-    """
+    """Print the names of the parameters of one node or of all nodes."""
     with CommandNode(options.spin_time) as command:
         wanted = absolute(options.node_name) if options.node_name else None
         command.discover(lambda: wanted is None or wanted in command.node_names())
@@ -60,11 +56,7 @@ def print_list(options: Namespace) -> None:
 
 
 def print_descriptions(options: Namespace) -> None:
-    """Print the type, the description and the constraints of parameters.
-
-    Raises:
-        CommandError: there is no such node, or it has not declared all of the parameters.
-    """
+    """Print the type, the description and the constraints of parameters."""
     with _node_of(options) as (command, client):
         descriptors = command.result(client.describe_parameters(options.parameter_names)).descriptors
     if not descriptors:
@@ -76,11 +68,7 @@ def print_descriptions(options: Namespace) -> None:
 
 
 def print_value(options: Namespace) -> None:
-    """Print the value of a parameter.
-
-    Raises:
-        CommandError: there is no such node, or it has no such parameter.
-    """
+    """Print the value of a parameter."""
     with _node_of(options) as (command, client):
         response = command.result(client.get_parameters([options.parameter_name]))
     if not response.values:
@@ -91,11 +79,7 @@ def print_value(options: Namespace) -> None:
 
 
 def set_parameter(options: Namespace) -> None:
-    """Set a parameter, and print whether the node accepted it; as with ros2cli, a rejection has exit status 0.
-
-    Raises:
-        CommandError: there is no such node, or the value is not valid YAML.
-    """
+    """Set a parameter, and print whether the node accepted it; as with ros2cli, a rejection has exit status 0."""
     parameter = Parameter(name=options.parameter_name, value=_typed(options.value))
     with _node_of(options) as (command, client):
         result = command.result(client.set_parameters([parameter])).results[0]
@@ -103,11 +87,7 @@ def set_parameter(options: Namespace) -> None:
 
 
 def dump(options: Namespace) -> None:
-    """Print the parameters of a node as a file that `param load` and --params-file read.
-
-    Raises:
-        CommandError: there is no such node.
-    """
+    """Print the parameters of a node as a file that `param load` and --params-file read."""
     with _node_of(options) as (command, client):
         names = sorted(command.result(client.list_parameters()).result.names)
         values = command.result(client.get_parameters(names)).values
@@ -116,11 +96,7 @@ def dump(options: Namespace) -> None:
 
 
 def load_file(options: Namespace) -> None:
-    """Set the parameters of a file, and print for each whether the node accepted it.
-
-    Raises:
-        CommandError: there is no such node, or the file is not a parameter file.
-    """
+    """Set the parameters of a file, and print for each whether the node accepted it."""
     parameters = _parameters_of(options.parameter_file)
     with _node_of(options) as (command, client):
         results = command.result(client.set_parameters(parameters)).results
@@ -182,11 +158,7 @@ def _of_one_node(verbs: Verbs, name: str, run: Run, summary: str) -> ArgumentPar
 
 @contextmanager
 def _node_of(options: Namespace) -> Iterator[tuple[CommandNode, AsyncParameterClient]]:
-    """Yield a command node and a client of the node's parameters, once that node answers.
-
-    Raises:
-        CommandError: there is no such node, or it does not answer.
-    """
+    """Yield a command node and a client of the node's parameters, once that node answers."""
     name = absolute(options.node_name)
     with CommandNode(options.spin_time) as command:
         command.find(lambda: name in command.node_names(hidden=True))
@@ -196,11 +168,7 @@ def _node_of(options: Namespace) -> Iterator[tuple[CommandNode, AsyncParameterCl
 
 
 def _client(command: CommandNode, node: str) -> AsyncParameterClient:
-    """Return a client of a node's parameters that the node answers.
-
-    Raises:
-        CommandError: it has no services for its parameters, or does not answer.
-    """
+    """Return a client of a node's parameters that the node answers."""
     if command.find(lambda: f"{node}/list_parameters" in command.services()):
         client = AsyncParameterClient(command.node, node)
         is_ready = command.wait_until(client.services_are_ready, ANSWER_TIMEOUT)

@@ -44,11 +44,7 @@ def add_verbs(verbs: Verbs) -> None:
 
 
 def print_type(options: Namespace) -> None:
-    """Print the type of a service.
-
-    Raises:
-        CommandError: there is no such service.
-    """
+    """Print the type of a service."""
     name = absolute(options.service_name)
     with CommandNode(options.spin_time) as command:
         if not command.find(lambda: name in command.services()):
@@ -57,11 +53,7 @@ def print_type(options: Namespace) -> None:
 
 
 def call_service(options: Namespace) -> None:
-    """Call a service, and print request and response.
-
-    Raises:
-        CommandError: the type or the values are wrong, or the service has another type.
-    """
+    """Call a service, and print request and response."""
     service_type = interface_class(options.service_type, "srv")
     values = given_values(options)
     message_from_yaml(service_type.Request, values)  # report wrong values before waiting

@@ -50,11 +50,7 @@ def add_to(verbs: Verbs) -> None:
 
 
 def print_messages(options: Namespace) -> None:
-    """Print each message until Ctrl-C or the timeout; with --once, only the first one.
-
-    Raises:
-        CommandError: the topic has no type yet, or its messages have no such field.
-    """
+    """Print each message until Ctrl-C or the timeout; with --once, only the first one."""
     topic = absolute(options.topic_name)
     longest = None if options.full_length else options.truncate_length
     with CommandNode(options.spin_time) as command:
@@ -97,11 +93,7 @@ def fitting_qos(publishers: list[TopicEndpointInfo]) -> QoSProfile:
 
 
 def select(message: Any, path: str | None) -> Any:
-    """Return the field at 'pose.pose.position', or the message itself for None.
-
-    Raises:
-        CommandError: there is no such field.
-    """
+    """Return the field at 'pose.pose.position', or the message itself for None."""
     for name in filter(None, (path or "").split(".")):
         if not is_message(message) or name not in message.get_fields_and_field_types():
             fields = message.get_fields_and_field_types() if is_message(message) else ()

@@ -61,12 +61,7 @@ def add_to(verbs: Verbs) -> None:
 
 
 def publish(options: Namespace) -> None:
-    """Publish until Ctrl-C, or as often as --once or --times says.
-
-    Raises:
-        CommandError: the type, the values or the combination of options is wrong, or too few subscriptions matched in
-            time.
-    """
+    """Publish until Ctrl-C, or as often as --once or --times says."""
     message_type = interface_class(options.message_type, "msg")
     values = given_values(options)
     message_from_yaml(message_type, values)  # report wrong values before waiting
@@ -93,11 +88,7 @@ def publish(options: Namespace) -> None:
 def wait_for_subscriptions(
     command: CommandNode, publisher: Publisher, wanted: int, options: Namespace
 ) -> None:
-    """Wait until `wanted` subscriptions match; print a line every second.
-
-    Raises:
-        CommandError: fewer subscriptions match after --max-wait-time-secs.
-    """
+    """Wait until `wanted` subscriptions match; print a line every second."""
     deadline = time.monotonic() + (options.max_wait_time_secs or float("inf"))
     while publisher.get_subscription_count() < wanted:
         if time.monotonic() >= deadline:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ros_runtime.drawing.svg import svg
-from ros_runtime.drawing.xml_text import escape
+from ros_runtime.drawing.svg import escape, svg
 
 NODE_WIDTH, MIDDLE_WIDTH, GAP = 180, 420, 80  # px, as all below
 ROW_HEIGHT, BOX_HEIGHT = 34, 26

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ros_runtime.design import Design, Link
 from ros_runtime.drawing.columns import SAND, End, Row, columns_svg
-from ros_runtime.drawing.xml_text import shorten
+from ros_runtime.drawing.svg import shorten
 
 HEADINGS = ("publishes or asks", "pattern, type", "receives or answers")
 FILLS = {"topic": SAND, "service": "#e8f4ea", "action": "#e6eefb", "wire": "#eeeeee"}

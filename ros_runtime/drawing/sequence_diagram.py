@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from ros_runtime.drawing.svg import svg
-from ros_runtime.drawing.xml_text import escape
+from ros_runtime.drawing.svg import escape, svg
 
 Kind = Literal["request", "answer", "message"]
 

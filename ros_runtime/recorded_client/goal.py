@@ -44,9 +44,8 @@ class Cancel:
         return self.answer is not None or self._conversation.was_too_large("cancel answer", self.name)
 
 
-SendCancel = Callable[
-    [str, bytes, str], Cancel
-]  # takes a goal's name and id, and the name of the sending client
+# takes a goal's name and id, and the name of the sending client
+SendCancel = Callable[[str, bytes, str], Cancel]
 
 
 class Goal:

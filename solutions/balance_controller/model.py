@@ -44,9 +44,8 @@ def offers_its_parameters(run: Transcript) -> str:
     """The node balance_controller offers its parameters"""
     require_ready(run)
     for call in run.calls[:1]:
-        _ = (
-            call.answered
-        )  # rclpy offers the services before the constructor has finished, which may still fail
+        # rclpy offers the services before the constructor has finished, which may still fail
+        _ = call.answered
     return "its parameters"
 
 

@@ -137,9 +137,8 @@ def compares_exactly(life: GuardLife) -> str | None:
         return None
     _require_cancels(life)
     if not life.goal.cancels:
-        client_ends.require_patience(
-            life, life.ends()
-        )  # if it exited early, nothing shows that the goal goes on
+        # if it exited early, nothing shows that the goal goes on
+        client_ends.require_patience(life, life.ends())
     levels = [event.message.percentage for event in life.levels if event.t < life.exited]
     high, low = [level for level in levels if level >= LIMIT], [level for level in levels if level < LIMIT]
     said = [f"goes on at {min(high):.4g}"] if high else []

@@ -177,9 +177,8 @@ def lengths_are_parameters(run: Transcript) -> str:
         values = iter(call.response.values)
         for name in call.request.names:
             length = DEFAULT.parameters[name]
-            value = next(
-                values, ParameterValue()
-            )  # a node that lacks one of them may return no values at all
+            # a node that lacks one of them may return no values at all
+            value = next(values, ParameterValue())
             is_double = value.type == ParameterType.PARAMETER_DOUBLE
             expect(
                 is_double and math.isclose(value.double_value, length, abs_tol=1e-6),

@@ -17,9 +17,8 @@ from .truth import plan_of, worst_at
 PATH_TOLERANCE = 0.5  # rad
 UNCERTAIN = 0.1  # rad below PATH_TOLERANCE, where a server may or may not abort
 MEASUREMENT_SLACK = 0.02  # rad, as a server's last joint_states may differ from the simulator's positions
-SURE_ARRIVAL_TIME = (
-    0.6 * ARRIVAL_TIME
-)  # s after the last point is due; a joint released until then surely arrives
+# s after the last point is due; a joint released until then surely arrives
+SURE_ARRIVAL_TIME = 0.6 * ARRIVAL_TIME
 ROUND = 0.05  # s, the period of joint_states
 
 

@@ -112,9 +112,8 @@ def expected_ends(run: Transcript) -> Ends:
     responses: list[Any] = []
     for service in missing:
         answers, responses = _answers(run, service)
-        if False in answers and (
-            asked(run, service) or may_fail
-        ):  # without a request, it would have responded
+        # without a request, it would have responded
+        if False in answers and (asked(run, service) or may_fail):
             what = "died before it responded" if died(run, service, run.end) else "did not respond"
             may_fail, why = True, f"{service} {what}"
             if True not in answers:

@@ -10,8 +10,7 @@ from collections.abc import Iterator, Mapping
 
 from audited.recorded import Case, cases
 from autograder.classroom.audit.known_submission import known_submissions
-from autograder.engine.clauses import clauses_in
-from autograder.engine.exercise import exercises_folder, load_exercise
+from autograder.engine.exercise import clauses_in, exercises_folder, load_exercise
 
 # obligation's sentence or check's title -> situation -> number of times it was judged
 Judged = dict[str, Counter[str]]

@@ -50,9 +50,8 @@ def write(path: Path, transcript: Transcript) -> None:
     head = {"params": transcript.params, "scale": transcript.scale}
     lines = [json.dumps(head).encode(), *(to_line(event).rstrip() for event in events)]
     path.parent.mkdir(parents=True, exist_ok=True)
-    kept = b"\n".join(lines).replace(
-        str(PROJECT).encode(), b"/course"
-    )  # tracebacks name the machine's own path
+    # tracebacks name the machine's own path
+    kept = b"\n".join(lines).replace(str(PROJECT).encode(), b"/course")
     path.write_bytes(gzip.compress(kept, mtime=0))
 
 

@@ -9,8 +9,8 @@ import typer
 from rich.console import Console
 
 from autograder.engine.exercise import exercise_names, load_exercise
-from course_cli.ending import UNUSABLE, error_exit
 from course_cli.options import JobsOption
+from ros_runtime.course_error import CourseError
 
 ALL = "all"
 
@@ -61,9 +61,9 @@ def bench(
 
     console = Console()
     if against and not (arena or submission):
-        raise error_exit(console, "--against needs --arena or --submission", UNUSABLE)
+        raise CourseError("--against needs --arena or --submission")
     if json_file and not (arena or submission):
-        raise error_exit(console, "--json needs --arena or --submission", UNUSABLE)
+        raise CourseError("--json needs --arena or --submission")
     if not (arena or submission or checks_of or trial):
         bench_overview(console, runs=runs, scales=scale or [], jobs=jobs, with_robot=robot)
         return
@@ -84,7 +84,7 @@ def bench(
         elif trial:
             bench_robot(console, None if ALL in trial else trial, quick=quick, jobs=jobs)
     except ValueError as error:
-        raise error_exit(console, error, UNUSABLE) from error
+        raise CourseError(str(error)) from error
 
 
 def _exercises(names: list[str]) -> list[str]:

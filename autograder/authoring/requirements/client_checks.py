@@ -241,9 +241,8 @@ def why_not_this_status(run: Transcript, exited: ev.NodeExited, help: str) -> tu
     """Return how a program with a wrong exit status ended, and what to do: `help` unless the output shows a cause."""
     if _HELD_INPUT in run.output("stderr"):
         return f"exit status {exited.returncode}; Python aborted", _NO_INPUT
-    lost = exited.returncode == 0 and bool(
-        run.last_words
-    )  # it printed a failure, but its status says success
+    # it printed a failure, but its status says success
+    lost = exited.returncode == 0 and bool(run.last_words)
     return how_it_ended(run, exited), _LOST_STATUS if lost else help
 
 

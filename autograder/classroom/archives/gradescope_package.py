@@ -50,7 +50,7 @@ exec "$root/source/{TOP}/course" gradescope --root "$root"
 def write_package(root: Path, archive: Path, exercise: str = "") -> int:
     """Write the package of the clone at `root`, for one exercise or for all; return the number of files in it.
 
-    Raises `Leak` when a file contains a solution or a hidden check.
+    Raises `CommandFailed` when a file contains a solution or a hidden check.
     """
     files = {path.relative_to(root).as_posix(): path for path in files_of(root, PARTS)}
     files |= {name: path for name, path in visible_checks() if exercise in ("", path.parent.name)}

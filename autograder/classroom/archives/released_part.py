@@ -15,10 +15,6 @@ _NUMBER = re.compile(r"0*(\w+?)(_.*)?(\.ipynb)?")  # of "7", "07" and "07_cancel
 _LINK = re.compile(r"\[(\w+)\]\(\.\./exercises/\S+\)")
 
 
-class NotInTheCourse(CourseError):
-    """There is no exercise or chapter of that name."""
-
-
 @dataclass(frozen=True)
 class Part:
     """Some of the course's chapters (None: all) and exercises.
@@ -53,16 +49,12 @@ class Part:
 
 
 def part_of(chapters_folder: Path, wanted: Sequence[str], until: str = "") -> Part:
-    """Return the chapters up to `until` ("": all), and the wanted exercises (none: those of the chapters).
-
-    Raises:
-        NotInTheCourse: there is no such chapter or exercise.
-    """
+    """Return the chapters up to `until` ("": all), and the wanted exercises (none: those of the chapters)."""
     chapters = read_contents(chapters_folder)
     released = _up_to(chapters, until) if until else chapters
     names = [name for word in wanted for name in word.split(",") if name]
     if unknown := [name for name in names if name not in all_names()]:
-        raise NotInTheCourse(f"there is no exercise {unknown[0]!r}; there are: {', '.join(all_names())}")
+        raise CourseError(f"there is no exercise {unknown[0]!r}; there are: {', '.join(all_names())}")
     if not names:
         of_chapters = [each.name for chapter in released for each in chapter.exercises]
         names = [name for name in all_names() if name in of_chapters or not until]
@@ -75,7 +67,7 @@ def _up_to(chapters: Sequence[Chapter], until: str) -> Sequence[Chapter]:
     ]
     if not found:
         numbers = ", ".join(chapter.number for chapter in chapters)
-        raise NotInTheCourse(f"there is no chapter {until!r}; there are: {numbers}")
+        raise CourseError(f"there is no chapter {until!r}; there are: {numbers}")
     return chapters[: chapters.index(found[-1]) + 1]
 
 

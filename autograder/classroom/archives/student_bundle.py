@@ -13,7 +13,7 @@ from autograder.classroom.archives.released_part import Part
 from autograder.classroom.nbgrader_bridge.release import generate_release
 from autograder.engine.exercise import all_names, exercise_names, exercises_folder, file_names, load_exercise
 from course_cli.kept_work import ORIGINALS, sha256_of
-from ros_runtime.course_error import COMMAND_FAILED, CourseError
+from ros_runtime.course_error import CommandFailed
 from ros_runtime.project import TOOLKIT
 
 TOP = "humanoid-course"  # the folder the archive unpacks to
@@ -59,16 +59,10 @@ IGNORED = ".venv/\nbuild/\n__pycache__/\n"  # by git, in the repository of a stu
 _ENTRY_DATE = (2026, 1, 1, 0, 0, 0)  # of every file, so that the same content gives the same archive
 
 
-class Leak(CourseError):
-    """A file of the archive contains a solution or a hidden check."""
-
-    exit_status = COMMAND_FAILED
-
-
 def write_bundle(root: Path, archive: Path, part: Part | None = None) -> int:
     """Write the students' archive of the clone at `root`, all of it or a part; return how many files it holds.
 
-    Raises `Leak` when a file contains a solution or a hidden check.
+    Raises `CommandFailed` when a file contains a solution or a hidden check.
     """
     part = part or Part(None, all_names())
     with tempfile.TemporaryDirectory() as temporary:
@@ -102,13 +96,13 @@ def _hashes(files: Mapping[str, Path]) -> str:
 
 
 def require_no_leak(files: Mapping[str, Path]) -> None:
-    """Raise `Leak` when a file names a hidden check or contains a solution."""
+    """Raise `CommandFailed` when a file names a hidden check or contains a solution."""
     forbidden = ["### BEGIN SOLUTION", *hidden_check_ids()]
     for name, path in files.items():
         content = path.read_bytes()
         found = next((word for word in forbidden if word.encode() in content), None)
         if found or path.name == "hidden.py":
-            raise Leak(
+            raise CommandFailed(
                 f"{name} would show students {found or 'hidden checks'!r}; leave the file out, or remove this text"
             )
 

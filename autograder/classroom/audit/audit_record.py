@@ -19,10 +19,6 @@ from ros_runtime.course_error import CourseError
 _Place = tuple[str, str, int | None]  # exercise, submission and seed, which identify a run
 
 
-class UnusableAuditRecord(CourseError):
-    """The file cannot be read as the record of an earlier audit."""
-
-
 class AuditRecord:
     """The runs of an audit by exercise, one per line; earlier runs stay until their submissions are graded again.
 
@@ -95,11 +91,7 @@ class AuditRecord:
 
 
 def read_runs(path: Path) -> list[dict[str, Any]]:
-    """Return the runs in the file of an earlier audit; an empty list if the file does not exist.
-
-    Raises:
-        UnusableAuditRecord: `course audit --json` did not write this file.
-    """
+    """Return the runs in the file of an earlier audit; an empty list if the file does not exist."""
     if not path.exists():
         return []
     try:
@@ -108,7 +100,7 @@ def read_runs(path: Path) -> list[dict[str, Any]]:
             Grade.from_json(run["grade"])
             _place(run), float(run["seconds"])
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise UnusableAuditRecord(
+        raise CourseError(
             f"{path} was not written by course audit --json ({type(error).__name__}: {error}); name another file, "
             "or leave out --resume to overwrite it"
         ) from error

@@ -24,14 +24,9 @@ from ros_runtime.course_error import CourseError
 SUFFIX = ".patch"
 MAX_CHANGED_SHARE = 0.6  # share of a program's lines; if more differ, the whole file is clearer than a diff
 _CONTEXT = 2  # lines around a change
-DOCSTRING = re.compile(
-    r'\A(?:#.*\n|\s)*"""(.*?)"""\n?', re.DOTALL
-)  # matches in files with syntax errors, too
+# matches in files with syntax errors, too
+DOCSTRING = re.compile(r'\A(?:#.*\n|\s)*"""(.*?)"""\n?', re.DOTALL)
 _DIFF_START = re.compile(r"^--- (\S+)", re.MULTILINE)
-
-
-class PatchError(CourseError):
-    """A patch that cannot be read, or that no longer applies."""
 
 
 def header_of(text: str) -> str:
@@ -43,20 +38,20 @@ def header_of(text: str) -> str:
 def whole_program(path: Path) -> str:
     """Apply a patch in known/<kind>/ to the submission it names; return the program, with the patch's header.
 
-    Raises `PatchError` when the patch does not apply; the message says what to do.
+    Raises `CourseError` when the patch does not apply; the message says what to do.
     """
     text = path.read_text(encoding="utf-8")
     found = _DIFF_START.search(text)
     base = path.parents[1] / found[1] if found else path
     if not found or not base.is_file():
-        raise PatchError(
+        raise CourseError(
             f"{path}: the line --- must name the correct submission to change, such as correct/class_based.py"
         )
     try:
         (change,) = whatthepatch.parse_patch(text[found.start() :])
         body = whatthepatch.apply_diff(change, _below_the_docstring(base).splitlines())
     except (WhatThePatchException, ValueError) as error:
-        raise PatchError(
+        raise CourseError(
             f"{path} no longer applies to {found[1]}: {error}. Write the whole program as {path.stem}.py, remove "
             f"{path.name}, and run ./course audit {path.parents[2].name} --to-patch {path.stem}"
         ) from error

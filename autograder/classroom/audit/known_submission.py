@@ -36,10 +36,6 @@ _KEY = re.compile(r"(Style|Fault|Attack|Outcome|Caught by|Also fails|Passes): *(
 _HEADLINE: Mapping[Kind, str] = {"correct": "Style", "faulty": "Fault", "hostile": "Attack"}
 
 
-class HeaderError(CourseError):
-    """The header of a known submission lacks a line that the audit needs, or is inconsistent."""
-
-
 @dataclass(frozen=True)
 class KnownSubmission:
     """A submission and the checks that must (`caught_by`) and may (`also_fails`) fail for it."""
@@ -57,7 +53,7 @@ class KnownSubmission:
         return f"{self.kind}/{self.path.stem}"
 
     def read(self) -> Submission:
-        """Return the whole submission; raises `PatchError` when a patch does not apply."""
+        """Return the whole submission; raises `CourseError` when a patch does not apply."""
         if self.path.suffix == SUFFIX:
             (file_name,) = file_names(self.exercise)
             return Submission(self.exercise, self.name, {file_name: whole_program(self.path)})
@@ -80,22 +76,22 @@ def known_submissions(exercise: str, *, only: str = "*") -> list[KnownSubmission
 
 
 def known_submission(exercise: str, name: str) -> KnownSubmission:
-    """Return the submission of this name, such as faulty/sleeps; raises `HeaderError` unless there is exactly one."""
+    """Return the submission of this name, such as faulty/sleeps; raises `CourseError` unless there is exactly one."""
     kind, _, stem = name.rpartition("/")
     found = known_submissions(exercise, only=name)
     if len(found) != 1:
         names = ", ".join(known.name for known in found) or "none"
-        raise HeaderError(f"expected one submission of {exercise} called {kind or '*'}/{stem}; found {names}")
+        raise CourseError(f"expected one submission of {exercise} called {kind or '*'}/{stem}; found {names}")
     return found[0]
 
 
 def read_known_submission(path: Path) -> KnownSubmission:
-    """Read the header of <exercise>/known/<kind>/<name>; raises `HeaderError`."""
+    """Read the header of <exercise>/known/<kind>/<name>; raises `CourseError`."""
     kind, exercise = _kind(path), path.parents[2].name
     header = _parse(_header_text(path))
     headline = _HEADLINE[kind]
     if not header.get(headline):
-        raise HeaderError(f'{_header_place(path)} must have a line "{headline}: …"')
+        raise CourseError(f'{_header_place(path)} must have a line "{headline}: …"')
     known = KnownSubmission(
         exercise, kind, path, header[headline], _ids(header, "Caught by"), _ids(header, "Also fails")
     )
@@ -104,10 +100,10 @@ def read_known_submission(path: Path) -> KnownSubmission:
 
 
 def require_known_checks(known: KnownSubmission, check_ids: Sequence[str]) -> None:
-    """Raise `HeaderError` when a header names a check that the exercise does not have."""
+    """Raise `CourseError` when a header names a check that the exercise does not have."""
     named = {*known.caught_by, *known.also_fails}
     if unknown := sorted(named - set(check_ids)):
-        raise HeaderError(
+        raise CourseError(
             f"{known.path} names {', '.join(unknown)}; "
             f"the checks of {known.exercise} are {', '.join(check_ids)}"
         )
@@ -134,7 +130,7 @@ def _kind(path: Path) -> Kind:
     for kind in get_args(Kind):
         if path.parent.name == kind:
             return kind
-    raise HeaderError(
+    raise CourseError(
         f"{path} is in the folder {path.parent.name!r}; expected one of {', '.join(get_args(Kind))}"
     )
 
@@ -161,14 +157,14 @@ def _ids(header: Mapping[str, str], key: str) -> tuple[str, ...]:
 def _require_an_expectation(known: KnownSubmission, header: Mapping[str, str]) -> None:
     if known.kind == "correct":
         if known.caught_by or known.also_fails:
-            raise HeaderError(f"{known.path} is in correct/, but its header says that a check fails")
+            raise CourseError(f"{known.path} is in correct/, but its header says that a check fails")
     elif known.kind == "faulty" and not known.caught_by:
-        raise HeaderError(f'{known.path} needs a line "Caught by: check_id"')
+        raise CourseError(f'{known.path} needs a line "Caught by: check_id"')
     elif known.kind == "hostile" and not header.get("Outcome"):
-        raise HeaderError(f'{known.path} needs a line "Outcome: …"')
+        raise CourseError(f'{known.path} needs a line "Outcome: …"')
     elif known.kind == "hostile" and bool(known.caught_by) == ("Passes" in header):
-        raise HeaderError(
+        raise CourseError(
             f'{known.path} needs either "Caught by: check_id" or "Passes: nothing it did not do"'
         )
     if overlap := set(known.caught_by) & set(known.also_fails):
-        raise HeaderError(f"{known.path} names {', '.join(sorted(overlap))} twice")
+        raise CourseError(f"{known.path} names {', '.join(sorted(overlap))} twice")

@@ -62,9 +62,8 @@ class AuditedRun:
         """Describe each difference from the expected verdict; empty if there is none."""
         words = [f"{check_id} did not catch it ({self.status(check_id)})" for check_id in self.missed()]
         for check in self.grade.checks:
-            if (
-                check.status == "error" and "was not graded" not in check.help
-            ):  # only the first cause is reported
+            # only the first cause is reported
+            if check.status == "error" and "was not graded" not in check.help:
                 words.append(f"{check.id} could not be judged: {check.help.splitlines()[0]}")
             elif check.id in self.unexpected():
                 words.append(f"{check.id} failed: expected {check.expected}; observed {check.observed}")

@@ -13,7 +13,7 @@ from typing import Any, Literal
 from pydantic import TypeAdapter
 
 from autograder.atomic_file import write_atomically
-from autograder.classroom.batch.effort import utc_now
+from autograder.classroom.batch.job import utc_now
 from autograder.classroom.batch.records import UNREADABLE
 from autograder.classroom.batch.runner import Graded
 from autograder.classroom.batch.seeds import Seeds

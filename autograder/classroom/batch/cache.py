@@ -12,7 +12,7 @@ from typing import Any
 from pydantic import TypeAdapter
 
 from autograder.atomic_file import write_atomically
-from autograder.classroom.batch.effort import Effort
+from autograder.classroom.batch.job import Effort
 from autograder.classroom.batch.records import UNREADABLE
 from autograder.classroom.batch.version import checks_version
 from autograder.engine.exercise import Exercise

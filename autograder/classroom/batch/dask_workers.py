@@ -10,16 +10,10 @@ from dataclasses import dataclass
 
 from autograder.classroom.batch.worker_pool import Workers
 from autograder.isolation.availability import Isolation, available_isolation
-from ros_runtime.course_error import COMMAND_FAILED, CourseError
+from ros_runtime.course_error import CommandFailed
 
 MAX_UNFINISHED_JOBS = 1000  # jobs submitted ahead, so that an adaptive cluster sees the demand and grows
 _CONNECT_TIMEOUT = 30.0  # s, to connect to the scheduler and for the first worker to join
-
-
-class NoCluster(CourseError):
-    """The cluster cannot be used; the message says why, and what to do."""
-
-    exit_status = COMMAND_FAILED
 
 
 @dataclass(frozen=True)
@@ -38,32 +32,29 @@ def dask_cluster(address: str) -> Iterator[Cluster]:
 
     If only some workers are isolated, only those grade. Each job checks its worker again, because workers may join
     later.
-
-    Raises:
-        NoCluster: `distributed` is not installed, no scheduler responds, or the cluster has no usable worker.
     """
     try:
         from distributed import Client
     except ImportError as error:
         install = f"{sys.executable} -m uv pip install --python {sys.executable} -c requirements.lock dask distributed"
-        raise NoCluster(f"--dask needs the package distributed: {install}") from error
+        raise CommandFailed(f"--dask needs the package distributed: {install}") from error
     try:
         client = Client(address, timeout=_CONNECT_TIMEOUT, set_as_default=False)
     except (OSError, ValueError) as error:
-        raise NoCluster(
+        raise CommandFailed(
             f"no Dask scheduler responds at {address} ({error}); start one with: dask scheduler"
         ) from error
     with client:
         try:
             client.wait_for_workers(1, timeout=_CONNECT_TIMEOUT)
         except (TimeoutError, asyncio.TimeoutError) as error:  # two classes before Python 3.11
-            raise NoCluster(
+            raise CommandFailed(
                 f"the scheduler at {address} has no worker; start one in a clone: .venv/bin/dask worker {address}"
             ) from error
         try:
             found: dict[str, Isolation] = client.run(available_isolation)
         except Exception as error:  # Dask decides which exception a worker without this toolkit raises
-            raise NoCluster(
+            raise CommandFailed(
                 f"a worker cannot run this toolkit ({type(error).__name__}: {error}); start every worker with the "
                 ".venv/bin/dask of a clone at the same commit"
             ) from error

@@ -9,31 +9,21 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ros_runtime.course_error import COMMAND_FAILED, CourseError
+from ros_runtime.course_error import CommandFailed
 
 LOCK = ".lock"
 
 
-class FolderInUse(CourseError):
-    """Another process grades into the folder; the message says which, and what to do."""
-
-    exit_status = COMMAND_FAILED
-
-
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Lock the folder, and create it if it is missing; the lock ends with the process, even when it crashes.
-
-    Raises:
-        FolderInUse: another process holds the lock.
-    """
+    """Lock the folder, and create it if it is missing; the lock ends with the process, even when it crashes."""
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / LOCK).open("a+", encoding="utf-8") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             file.seek(0)
-            raise FolderInUse(
+            raise CommandFailed(
                 f"{folder} is in use by another `course grade`, {file.read().strip() or 'which has just begun'}; wait "
                 "until that process has ended, end it with Ctrl-C, or give another --out"
             ) from None

@@ -47,8 +47,3 @@ def with_reason(grade: Grade) -> Grade:
     return dataclasses.replace(
         grade, reason=f"{broken.id}: {broken.help}" if broken else "no check was judged"
     )
-
-
-def not_graded(exercise: str, student: str, isolation: str, reason: str) -> Grade:
-    """Return the grade "not graded" of a submission that the grader failed to judge: it has no score."""
-    return Grade(exercise, student, isolation, reason=reason)

@@ -7,11 +7,11 @@ import socket
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from datetime import datetime, timezone
 from typing import TYPE_CHECKING
 
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.classroom.batch.effort import Effort, utc_now
-from autograder.classroom.batch.grades_without_run import not_graded, with_reason
+from autograder.classroom.batch.grades_without_run import with_reason
 from autograder.classroom.batch.version import checks_version
 from autograder.classroom.pages.drawings import DrawnRuns, drawing_into
 from autograder.engine.exercise import FOLDER_VARIABLE, Exercise, load_exercise
@@ -22,6 +22,38 @@ from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.availability import Isolation, available_isolation
 from autograder.recording.kept import Recordings
+
+
+@dataclass(frozen=True)
+class Effort:
+    """Time, place and cost of grading one submission.
+
+    Attributes:
+        began, ended: UTC, ISO 8601.
+        host: the machine's name.
+        processor_seconds: of all processes in its arenas; sampled, so the last moments of killed processes are missing.
+        arenas: number of arenas opened.
+        scenarios: number of scenario runs, including retries.
+    """
+
+    began: str
+    ended: str
+    host: str
+    processor_seconds: float = 0.0
+    arenas: int = 0
+    scenarios: int = 0
+
+
+def without_arena() -> Effort:
+    """Return the effort of a grade that needs no arena, such as an unmarked essay."""
+    now = utc_now()
+    return Effort(now, now, socket.gethostname())
+
+
+def utc_now() -> str:
+    """Return the present date and time, UTC, ISO 8601."""
+    return datetime.now(timezone.utc).isoformat(timespec="seconds")
+
 
 if TYPE_CHECKING:
     from autograder.recording.recorder import Recorder
@@ -140,7 +172,7 @@ def _graded(
 
     try:
         if problem := _why_not_here(job, isolation):
-            found = not_graded(job.exercise, job.student, isolation.label, problem)
+            found = Grade(job.exercise, job.student, isolation.label, reason=problem)
         else:
             exercise = load_exercise(job.exercise, hidden=job.trusted)
             recorder = _recorder(exercise) if job.recorded else None
@@ -152,7 +184,7 @@ def _graded(
         raise
     except Exception:  # any error here is the grader's fault and must not end the batch
         reason = f"the grader itself failed:\n{traceback.format_exc()}"
-        found = not_graded(job.exercise, job.student, isolation.label, reason)
+        found = Grade(job.exercise, job.student, isolation.label, reason=reason)
     return Outcome(
         with_reason(found),
         drawn,

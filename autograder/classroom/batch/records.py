@@ -14,21 +14,13 @@ GRADES = "grades.json"
 UNREADABLE = (OSError, ValueError, RecursionError)  # raised for damaged or deeply nested JSON
 
 
-class UnusableRecord(CourseError):
-    """A file of grades cannot be read; the message says what was found, and what to do."""
-
-
 def write_grades(path: Path, grades: Sequence[Grade]) -> None:
     """Write the grades of a batch as one list, for the instructor: it includes the details of hidden checks."""
     write_atomically(path, json.dumps([grade.to_json() for grade in grades], indent=2) + "\n")
 
 
 def read_grades(path: Path) -> list[Grade]:
-    """Read back what `write_grades` wrote; no grades if there is no such file.
-
-    Raises:
-        UnusableRecord: the file holds something else.
-    """
+    """Read back what `write_grades` wrote; no grades if there is no such file."""
     if not path.exists():
         return []
     try:
@@ -37,7 +29,7 @@ def read_grades(path: Path) -> list[Grade]:
             raise ValueError("it does not hold a list of grades")
         return [Grade.from_json(record) for record in records]
     except UNREADABLE as error:
-        raise UnusableRecord(
+        raise CourseError(
             f"{path} is not a file of grades ({str(error)[:500]}); restore the file of the last batch, or move this "
             "file away and grade the whole class again with --resume"
         ) from error

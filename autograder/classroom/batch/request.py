@@ -7,10 +7,7 @@ from pathlib import Path
 
 from autograder.classroom.batch.shards import Shard
 from autograder.classroom.dates import Deadlines
-
-
-class UnusableRequest(ValueError):
-    """Options that exclude each other; the message says which."""
+from ros_runtime.course_error import CourseError
 
 
 @dataclass(frozen=True)
@@ -50,11 +47,11 @@ class BatchRequest:
 
     def __post_init__(self) -> None:
         if self.shard and (self.students or self.exercises or self.json_file):
-            raise UnusableRequest(
+            raise CourseError(
                 "--shard grades a part of the whole class: leave out --student, --exercise and --json"
             )
         if self.shard and self.watch:
-            raise UnusableRequest(
+            raise CourseError(
                 "--watch grades new submissions, and --shard a part of the present ones: give only one option"
             )
 

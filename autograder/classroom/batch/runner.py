@@ -10,9 +10,15 @@ from pathlib import Path
 
 from autograder.classroom.batch.cache import CachedGrade, GradeCache
 from autograder.classroom.batch.collection import Work
-from autograder.classroom.batch.effort import Effort, without_arena
 from autograder.classroom.batch.grades_without_run import unreadable
-from autograder.classroom.batch.job import BatchWatcher, GradingJob, SharedState, carry_out
+from autograder.classroom.batch.job import (
+    BatchWatcher,
+    Effort,
+    GradingJob,
+    SharedState,
+    carry_out,
+    without_arena,
+)
 from autograder.classroom.batch.seeds import ONE_FOR_ALL, Seeds
 from autograder.classroom.batch.version import checks_version
 from autograder.classroom.batch.worker_pool import WorkerPool, Workers, threads
@@ -71,9 +77,8 @@ class BatchRunner:
 
     def __post_init__(self) -> None:
         self._stop = Stop()
-        self.exercise = lru_cache(
-            self._load
-        )  # returns an exercise by its name, with the checks of this batch
+        # returns an exercise by its name, with the checks of this batch
+        self.exercise = lru_cache(self._load)
 
     def count(self, name: str) -> int:
         """Return the number of verdicts that this batch gives on one submission for an exercise."""

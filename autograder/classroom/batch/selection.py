@@ -10,44 +10,32 @@ from autograder.engine.verdict import Grade
 from ros_runtime.course_error import CourseError
 
 
-class OtherSeed(CourseError):
-    """Grades that should be kept have another seed; the message says what to do."""
-
-
-class NothingSelected(CourseError):
-    """A name selects no submission; the message lists the names of the class."""
-
-
 def select(works: Sequence[Work], students: Sequence[str], exercises: Sequence[str]) -> list[Work]:
-    """Return the works of these students for these exercises; an empty sequence selects all.
-
-    Raises:
-        NothingSelected: a name has no submission, or these students handed in none of these exercises.
-    """
+    """Return the works of these students for these exercises; an empty sequence selects all."""
     for option, wanted, found in (
         ("--student", students, {work.student for work in works}),
         ("--exercise", exercises, {work.exercise for work in works}),
     ):
         if missing := sorted(set(wanted) - found):
             names = ", ".join(sorted(found)[:20]) + (", …" if len(found) > 20 else "")
-            raise NothingSelected(f"{option} {missing[0]}: no submission has this name; there are {names}")
+            raise CourseError(f"{option} {missing[0]}: no submission has this name; there are {names}")
     selected = [
         work
         for work in works
         if (not students or work.student in students) and (not exercises or work.exercise in exercises)
     ]
     if not selected and (students or exercises):
-        raise NothingSelected(f"{', '.join(students)} handed in none of {', '.join(exercises)}")
+        raise CourseError(f"{', '.join(students)} handed in none of {', '.join(exercises)}")
     return selected
 
 
 def require_seed(before: Sequence[Grade], seeds: Seeds) -> None:
-    """Raise OtherSeed if a kept grade has another seed than this run would use."""
+    """Raise CourseError if a kept grade has another seed than this run would use."""
     if seeds.per_submission:
         return
     other = next((grade for grade in before if grade.seed not in (None, seeds.of(grade.student, {}))), None)
     if other:
-        raise OtherSeed(
+        raise CourseError(
             f"{other.student}'s {other.exercise} has a grade with seed {other.seed}, but this run would use seed "
             f"{seeds.of(other.student, {})}; repeat the earlier --seed and --seed-per-student, or grade the whole class"
         )

@@ -25,10 +25,6 @@ from ros_runtime.course_error import CourseError
 SHARD = "shard.json"
 
 
-class CannotMerge(CourseError):
-    """The folders do not make one batch; the message says why, and what to do."""
-
-
 @dataclass(frozen=True)
 class Shard:
     """Part `number` (from 1) of a class that is split into `total` parts."""
@@ -38,10 +34,10 @@ class Shard:
 
     @classmethod
     def parse(cls, text: str) -> Shard:
-        """Read "K/N"; raises ValueError unless 1 ≤ K ≤ N."""
+        """Read "K/N"; raises CourseError unless 1 ≤ K ≤ N."""
         match = re.fullmatch(r"([1-9]\d{0,5})/([1-9]\d{0,5})", text)
         if not match or int(match[1]) > int(match[2]):
-            raise ValueError(f"{text[:100]!r} is not a shard; expected K/N with K from 1 to N, such as 1/4")
+            raise CourseError(f"{text[:100]!r} is not a shard; expected K/N with K from 1 to N, such as 1/4")
         return cls(int(match[1]), int(match[2]))
 
     def part(self, works: Sequence[Work]) -> list[Work]:
@@ -116,12 +112,7 @@ class Merged:
 
 
 def merge_shards(folders: Sequence[Path]) -> Merged:
-    """Merge the files that `write_shard` wrote into these folders.
-
-    Raises:
-        CannotMerge: a folder holds no shard, two folders hold the same submission, or the seeds, versions or isolations
-            of the shards differ.
-    """
+    """Merge the files that `write_shard` wrote into these folders."""
     shards = {folder: _read(folder) for folder in folders}
     (first, given), *others = shards.items()
     for folder, record in others:
@@ -130,7 +121,7 @@ def merge_shards(folders: Sequence[Path]) -> Merged:
             ("versions", "bring all clones to one commit and grade with --resume"),
         ):
             if record[what] != given[what]:  # type: ignore[literal-required]
-                raise CannotMerge(f"{first} and {folder} were graded with different {what}: {advice}")
+                raise CourseError(f"{first} and {folder} were graded with different {what}: {advice}")
     results: dict[tuple[str, str], Graded] = {}
     found_in: dict[tuple[str, str], Path] = {}
     isolations: dict[bool, Path] = {}
@@ -139,7 +130,7 @@ def merge_shards(folders: Sequence[Path]) -> Merged:
             grade = _grade_of(row, folder)
             key = (grade.student, grade.exercise)
             if key in results:
-                raise CannotMerge(
+                raise CourseError(
                     f"{grade.student}'s {grade.exercise} is in {found_in[key]} and in {folder}: leave out one of these"
                 )
             # Essays and submissions of lost workers have another label.
@@ -148,7 +139,7 @@ def merge_shards(folders: Sequence[Path]) -> Merged:
             found_in[key] = folder
             results[key] = Graded(_work_of(row, grade), grade, row["sources"], row["problem"])
     if len(isolations) == 2:
-        raise CannotMerge(
+        raise CourseError(
             f"{isolations[True]} was graded without isolation and hidden checks, {isolations[False]} with both: "
             "grade the first again where namespaces work"
         )
@@ -163,7 +154,7 @@ def _grade_of(row: _Row, folder: Path) -> Grade:
     try:
         return Grade.from_json(row["grade"])
     except ValueError as error:
-        raise CannotMerge(
+        raise CourseError(
             f"{folder} contains an invalid grade ({str(error)[:500]}); grade this shard again"
         ) from error
 
@@ -185,7 +176,7 @@ def _read(folder: Path) -> _Record:
         record = _RECORD.validate_python(json.loads((folder / SHARD).read_text(encoding="utf-8")))
         Shard.parse(record["shard"])
         return record
-    except UNREADABLE as error:
-        raise CannotMerge(
+    except (*UNREADABLE, CourseError) as error:
+        raise CourseError(
             f"{folder} holds no finished shard (`course grade --shard K/N`): {str(error)[:500]}"
         ) from error

@@ -24,6 +24,12 @@ def write_source(out: Path, result: Graded) -> None:
     _replace(out / SOURCES / result.work.exercise / result.work.student, result.sources or {})
 
 
+def graded_sources(out: Path, exercise: str, student: str) -> dict[str, str] | None:
+    """Return the program that `write_source` has written; None if the submission could not be read."""
+    files = sorted((out / SOURCES / exercise / student).glob("*"))
+    return {file.name: file.read_text(encoding="utf-8") for file in files} or None
+
+
 def write_base_code(out: Path, exercise: str, releases: Path) -> None:
     """Write the starter code from the notebook in releases/<exercise>/, if there is one."""
     try:

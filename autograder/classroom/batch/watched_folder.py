@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from autograder.classroom.batch.collection import Collection, NoSubmissions, Work, collect
-from autograder.classroom.batch.folder_lock import FolderInUse
+from ros_runtime.course_error import CommandFailed
 
 Key = tuple[str, str]
 Stamp = tuple[tuple[str, int, int, int], ...]  # name, inode, size and modification time of each file
@@ -77,17 +77,13 @@ class WatchedFolder:
 
 @contextmanager
 def only_watcher(folder: Path) -> Iterator[None]:
-    """Lock the folder as its only watcher; nothing is written into it.
-
-    Raises:
-        FolderInUse: another process watches it.
-    """
+    """Lock the folder as its only watcher; nothing is written into it."""
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise FolderInUse(
+            raise CommandFailed(
                 f"another `course grade --watch` watches {folder}: end it first, with Ctrl-C"
             ) from None
         except OSError:  # this file system cannot lock folders; --out is locked all the same

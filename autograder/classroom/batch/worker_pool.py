@@ -10,8 +10,8 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, replace
 
-from autograder.classroom.batch.grades_without_run import not_graded
 from autograder.classroom.batch.job import GradingJob, Outcome
+from autograder.engine.verdict import Grade
 
 
 @dataclass(frozen=True)
@@ -121,4 +121,4 @@ def _lost(job: GradingJob, error: BaseException, *, twice: bool) -> Outcome:
         f"the worker was lost {'twice ' if twice else ''}while it graded this ({type(error).__name__}: {error}); check "
         "whether a machine ran out of memory or was switched off, and grade again with --resume"
     )
-    return Outcome(not_graded(job.exercise, job.student, "", reason), retry_may_succeed=True)
+    return Outcome(Grade(job.exercise, job.student, "", reason=reason), retry_may_succeed=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import re
 from collections.abc import Callable
@@ -17,16 +18,13 @@ from nbformat.v4 import new_code_cell
 
 from lab.learning.gap_cells import fill_gaps
 from ros_cli.real_ros2 import path_with_ros2
-from ros_runtime.course_error import COMMAND_FAILED, CourseError
+from ros_runtime.course_error import CommandFailed
 
 # s; building interfaces takes ten seconds on an idle machine, and minutes on a busy one
 CELL_TIMEOUT = 300
-
-
-class ChapterFailed(CourseError):
-    """A cell of a chapter raised, did not end in time, or lost its kernel."""
-
-    exit_status = COMMAND_FAILED
+# Folders that a chapter's outputs depend on, besides its own text.
+SOURCE_FOLDERS = ("humanoid_interfaces", "lab", "robot_sim", "ros_cli", "ros_runtime")
+SOURCES = {".py", ".xml", ".msg", ".srv", ".action"}
 
 
 @dataclass(frozen=True)
@@ -57,7 +55,6 @@ def execute(
     """Run all cells of a chapter in a folder; `on_cell` gets each cell's number and the number of cells.
 
     Raises:
-        ChapterFailed: a cell failed; the message names the chapter and the cell.
         KeyboardInterrupt: Ctrl-C; the kernel has been ended.
     """
     notebook = answered(nbformat.read(chapter, as_version=4))
@@ -79,13 +76,13 @@ def execute(
     try:
         _execute(client)
     except CellExecutionError as error:
-        raise ChapterFailed(f"{chapter.name}, cell {reached.id}: {error.ename}: {error.evalue}") from error
+        raise CommandFailed(f"{chapter.name}, cell {reached.id}: {error.ename}: {error.evalue}") from error
     except CellTimeoutError as error:
-        raise ChapterFailed(
+        raise CommandFailed(
             f"{chapter.name}, cell {reached.id}: did not end within {CELL_TIMEOUT} s"
         ) from error
     except DeadKernelError as error:
-        raise ChapterFailed(f"{chapter.name}, cell {reached.id}: its kernel died") from error
+        raise CommandFailed(f"{chapter.name}, cell {reached.id}: its kernel died") from error
     return Executed(notebook, [str(process) for process in processes_in(folder)])
 
 
@@ -124,3 +121,39 @@ def processes_in(folder: Path) -> list[psutil.Process]:
             return False
 
     return [process for process in psutil.process_iter() if runs_there(process)]
+
+
+class KeptRuns:
+    """Executed notebooks in a folder, named by a hash of the chapter and of the code that it runs."""
+
+    def __init__(self, folder: Path, project: Path) -> None:
+        self._folder = folder
+        self._project = project
+
+    def of(self, chapter: Path) -> nbformat.NotebookNode | None:
+        """Return the stored run of the chapter's present content, or None."""
+        kept = self._file(chapter)
+        return nbformat.read(kept, as_version=4) if kept.exists() else None
+
+    def keep(self, chapter: Path, executed: nbformat.NotebookNode) -> None:
+        """Store a run and remove the chapter's earlier ones; the file is written atomically."""
+        self._folder.mkdir(parents=True, exist_ok=True)
+        kept = self._file(chapter)
+        for earlier in self._folder.glob(f"{chapter.stem}-*.ipynb"):
+            earlier.unlink()
+        half = kept.with_suffix(".half")
+        nbformat.write(executed, half)
+        half.replace(kept)
+
+    def _file(self, chapter: Path) -> Path:
+        digest = hashlib.sha256(chapter.read_bytes() + self._sources_hash).hexdigest()
+        return self._folder / f"{chapter.stem}-{digest[:16]}.ipynb"
+
+    @cached_property
+    def _sources_hash(self) -> bytes:
+        digest = hashlib.sha256()
+        for name in SOURCE_FOLDERS:
+            for path in sorted((self._project / name).rglob("*")):
+                if path.suffix in SOURCES:
+                    digest.update(f"{path.relative_to(self._project)}\n".encode() + path.read_bytes())
+        return digest.digest()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 import sys
@@ -13,8 +14,7 @@ from nbformat import NotebookNode
 
 from autograder.classroom.book.links import Links
 from autograder.classroom.book.reader_copy import reader_copy
-from autograder.classroom.book.week_pages import week_page
-from ros_runtime.course_error import COMMAND_FAILED, CourseError
+from ros_runtime.course_error import CommandFailed
 from ros_runtime.project import PROJECT
 
 CONFIGURATION = Path(__file__).with_name("sphinx")
@@ -53,12 +53,7 @@ robot what goes wrong between ROS 2 programs, and how to do it right.{outputs}
 run every cell and change it.
 """
 OUTPUTS = " Their outputs and pictures come from a run of every cell."
-
-
-class BookFailed(CourseError):
-    """Sphinx could not make the site, or it printed a warning."""
-
-    exit_status = COMMAND_FAILED
+_DRAWING = re.compile(r"^!\[.*\]\(images/", re.MULTILINE)
 
 
 def parts_of(project: Path) -> dict[str, dict[PurePosixPath, Path]]:
@@ -85,7 +80,7 @@ def make_site(
 
     `work` is a folder for Sphinx's sources and cache.
 
-    Raises BookFailed, with the errors and warnings of Sphinx.
+    Raises CommandFailed, with the errors and warnings of Sphinx.
     """
     sources = work / "sources"
     shutil.rmtree(sources, ignore_errors=True)
@@ -97,7 +92,7 @@ def make_site(
     ]
     finished = subprocess.run(command, capture_output=True, text=True, cwd=PROJECT)
     if finished.returncode != 0:
-        raise BookFailed(f"Sphinx could not make the book:\n{finished.stderr.strip()}")
+        raise CommandFailed(f"Sphinx could not make the book:\n{finished.stderr.strip()}")
     return output / "index.html"
 
 
@@ -129,3 +124,17 @@ def _gather(sources: Path, runs: Mapping[str, NotebookNode | None], project: Pat
 def _table_of_contents(part: str, pages: Iterable[PurePosixPath]) -> str:
     entries = "\n".join(page.with_suffix("").as_posix() for page in pages)
     return f"```{{toctree}}\n:caption: {part}\n:maxdepth: 1\n\n{entries}\n```\n"
+
+
+def week_page(notebook: NotebookNode) -> str | None:
+    """Return a chapter's page as Markdown, with links relative to the chapter, or None if it has no drawing."""
+    texts = {cell.id: cell.source for cell in notebook.cells if cell.cell_type == "markdown"}
+    drawn = [text for text in (texts.get("diagram", ""), *texts.values()) if _DRAWING.search(text)]
+    if not drawn:
+        return None
+    title, *paragraphs = texts["title"].split("\n\n")
+    outcomes = (text for text in paragraphs if text.startswith(("**After", "- ")))
+    drawing = next(line for line in drawn[0].splitlines() if _DRAWING.match(line))
+    _, _, conventions = texts.get("conventions", "").partition("\n\n")
+    table = conventions.split("\n\n")[0]
+    return "\n\n".join(part for part in (title, *outcomes, drawing, table) if part) + "\n"

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from autograder.classroom.batch.batch_record import BatchRecord, write_batch
+from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.records import GRADES, write_grades
 from autograder.classroom.batch.runner import Graded
-from autograder.classroom.batch.source_files import write_base_code, write_source
+from autograder.classroom.batch.source_files import graded_sources, write_base_code, write_source
 from autograder.classroom.dates import Deadlines
 from autograder.classroom.nbgrader_bridge.course_folder import RELEASE, NbgraderError
 from autograder.classroom.nbgrader_bridge.gradebook import CourseGradebook, Entry
 from autograder.classroom.nbgrader_bridge.rebuild_submission import NoSolutionCell
 from autograder.classroom.pages.drawings import Drawings
 from autograder.classroom.pages.pages import write_class_page, write_student_page, write_submission_pages
-from autograder.engine.exercise import exercises_folder
+from autograder.engine.essay import load_essay, unmarked_grade
+from autograder.engine.exercise import essay_names, exercises_folder
 from autograder.engine.verdict import Grade, Late
 
 LOG = "nbgrader.log"
@@ -74,7 +77,7 @@ class ClassFiles:
         self._timestamps[key], self._grades[key] = work.timestamp, result.grade
         self._grades[key] = self._entered(result, self._of_student(work.student)[work.exercise].late)
         theirs = self._of_student(work.student)
-        grade = theirs[work.exercise]
+        self._grades[key] = grade = theirs[work.exercise]
         write_source(self._out, result)
         write_base_code(self._out, grade.exercise, self._out / RELEASE)
         drawn = {
@@ -83,13 +86,33 @@ class ClassFiles:
         write_submission_pages(self._out, grade, drawn)
         write_student_page(self._out, grade.student, list(theirs.values()))
 
+    def outdated(self, works: Sequence[Work]) -> list[Graded]:
+        """Return the results whose deduction for late work has changed since they were added, to be added again."""
+        now = {(grade.student, grade.exercise): grade for grade in self.grades}
+        keys = [(work.student, work.exercise) for work in works]
+        return [
+            self._kept(work, now[key])
+            for work, key in zip(works, keys, strict=True)
+            if key in now and now[key].late != self._grades[key].late
+        ]
+
+    def _kept(self, work: Work, grade: Grade) -> Graded:
+        """Return the result of an earlier run; the points that a person gave an essay are in the gradebook."""
+        if work.exercise in essay_names():
+            grade = unmarked_grade(load_essay(work.exercise), work.student)
+        sources = graded_sources(self._out, work.exercise, work.student)
+        problem = "" if sources or not grade.checks else grade.checks[0].observed
+        return Graded(work, replace(grade, late=None), sources, problem, cached=True)
+
     def _of_student(self, student: str) -> Mapping[str, Grade]:
         """Return a student's grades by exercise."""
         theirs = [grade for grade in self._grades.values() if grade.student == student]
         return {grade.exercise: grade for grade in self._with_late(theirs)}
 
     def _with_late(self, grades: Sequence[Grade]) -> Sequence[Grade]:
-        return self._deadlines.applied(grades, self._timestamps) if self._deadlines else grades
+        if self._deadlines:
+            return self._deadlines.applied(grades, self._timestamps)
+        return [replace(grade, late=None) for grade in grades]
 
     def write(self, refused: Sequence[str] = ()) -> Path:
         """Write the files on the whole class and return its page; `refused`: sentences on unreadable folders."""

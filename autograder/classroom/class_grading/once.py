@@ -28,13 +28,7 @@ from course_cli.ending import batch_status
 
 
 def grade_once(console: Console, request: BatchRequest) -> int:
-    """Grade a batch; return the exit status: 0 if every submission has a grade in the gradebook.
-
-    Raises:
-        NoSubmissions, NothingSelected: there is nothing to grade.
-        UnusableExercise: the exercise's author has to correct the exercise.
-        Exception: the exceptions of `prepared`.
-    """
+    """Grade a batch; return the exit status: 0 if every submission has a grade in the gradebook."""
     collection = collect(request.submitted)
     works = select(collection.works, request.students, request.exercises)
     is_entered = True
@@ -54,6 +48,7 @@ def grade_once(console: Console, request: BatchRequest) -> int:
                 request.out, grades, record, json_file=request.json_file, deadlines=request.deadlines
             )
             add_all(console, files, results)
+            add_all(console, files, files.outdated(collection.works))
             is_entered = print_summary(console, files, request.out, files.write(collection.refused))
     not_graded = print_ungraded(console, collection, results)
     if request.record:

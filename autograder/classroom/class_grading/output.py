@@ -19,6 +19,8 @@ from autograder.report.table import class_table
 
 def add_all(console: Console, files: ClassFiles, results: Sequence[Graded]) -> None:
     """Add results to the files of a class; nbgrader is slow, so a progress bar is shown."""
+    if not results:
+        return
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),

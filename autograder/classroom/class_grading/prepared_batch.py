@@ -12,9 +12,8 @@ from autograder.classroom.batch.batch_record import BatchRecord, read_batch
 from autograder.classroom.batch.cache import GradeCache
 from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.dask_workers import Cluster, dask_cluster
-from autograder.classroom.batch.effort import utc_now
 from autograder.classroom.batch.folder_lock import locked
-from autograder.classroom.batch.job import BatchWatcher
+from autograder.classroom.batch.job import BatchWatcher, utc_now
 from autograder.classroom.batch.records import GRADES, read_grades
 from autograder.classroom.batch.request import BatchRequest
 from autograder.classroom.batch.runner import BatchRunner, Graded
@@ -76,17 +75,9 @@ def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> 
     """Lock the output folder, start the workers and print their isolation.
 
     `works` are the submissions of the whole class.
-
-    Raises:
-        FolderInUse: another process grades into the output folder.
-        HiddenChecksRefused: students could read the checks on this machine.
-        NoCluster: there is no cluster at the given address.
-        OtherSeed: grades that are kept have another seed.
-        UnusableRecord: grades that are kept cannot be read.
     """
-    if (
-        not request.dask and available_isolation().trusted
-    ):  # without isolation a submission can read every file anyway
+    # without isolation a submission can read every file anyway
+    if not request.dask and available_isolation().trusted:
         require_hidden([exercises_folder(), request.submitted, request.out])
     with (
         locked(request.out),

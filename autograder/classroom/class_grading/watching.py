@@ -26,14 +26,7 @@ _SLEEP_TIME = 0.2  # s
 
 
 def watch_and_grade(console: Console, request: BatchRequest) -> int:
-    """Grade until Ctrl-C; return the exit status: 0 if every submission found has a grade in the gradebook.
-
-    Raises:
-        NoSubmissions: the folder does not exist (an empty folder is allowed).
-        FolderInUse: another process watches the folder.
-        UnusableExercise: the exercise's author has to correct the exercise.
-        Exception: the exceptions of `prepared`.
-    """
+    """Grade until Ctrl-C; return the exit status: 0 if every submission found has a grade in the gradebook."""
     if not request.submitted.is_dir():
         raise NoSubmissions(f"{request.submitted} is not a folder; create it first")
     with only_watcher(request.submitted), prepared(console, request, ()) as batch:
@@ -74,6 +67,8 @@ class _Watch:
             left_aside=left_aside(self._folder.collection, self._results.values()),
             refused=self._folder.collection.refused,
         ).closed("interrupted" if self._folder.unfinished else "ended")
+        for result in self._files.outdated(self._folder.collection.works):
+            self._files.add(result)
         self._write_class()
         return self._print_summary()
 

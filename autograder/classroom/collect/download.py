@@ -27,10 +27,6 @@ MAX_TOTAL_BYTES = 4 * 2**30  # bytes read from one download, in total
 _HIDDEN = re.compile(r"\.[^.].*")  # files of git, Jupyter, editors, virtual environments and macOS
 
 
-class UnusableDownload(CourseError):
-    """The file or folder is not a download of the platform; the message says what was found and what is expected."""
-
-
 class Refused(UnusableSubmission):
     """One file of the download is not read; the message says why."""
 
@@ -49,7 +45,6 @@ class File:
 
         Raises:
             Refused: the file has more than `limit` bytes or cannot be read.
-            UnusableDownload: more than MAX_TOTAL_BYTES would be read of this download.
         """
         try:
             with self.open() as file:
@@ -70,10 +65,10 @@ class Budget:
     left: int = MAX_TOTAL_BYTES
 
     def spend(self, count: int) -> None:
-        """Subtract `count` bytes; raises `UnusableDownload` when the budget is exceeded."""
+        """Subtract `count` bytes; raises `CourseError` when the budget is exceeded."""
         self.left -= count
         if self.left < 0:
-            raise UnusableDownload(
+            raise CourseError(
                 f"the download holds more than {MAX_TOTAL_BYTES // 2**30} GiB; collect it in parts"
             )
 
@@ -88,11 +83,7 @@ class Download:
 
 @contextmanager
 def open_download(path: Path) -> Iterator[Download]:
-    """Open a zip file or a folder.
-
-    Raises:
-        UnusableDownload: `path` is neither a zip file nor a folder, or it has too many files.
-    """
+    """Open a zip file or a folder."""
     budget = Budget()
     if path.is_dir():
         yield _sorted(_from_folder(path, budget))
@@ -100,7 +91,7 @@ def open_download(path: Path) -> Iterator[Download]:
     try:
         archive = zipfile.ZipFile(path)
     except (OSError, zipfile.BadZipFile, ValueError) as error:
-        raise UnusableDownload(f"{path} is neither a folder nor a zip file: {error}") from error
+        raise CourseError(f"{path} is neither a folder nor a zip file: {error}") from error
     with archive:
         yield _sorted(_from_zip(archive, budget))
 
@@ -114,7 +105,7 @@ def _sorted(found: Iterator[File | str]) -> Download:
         else:
             files.append(one)
         if len(files) + len(refused) > MAX_FILES:
-            raise UnusableDownload(f"the download holds more than {MAX_FILES:,} files; collect it in parts")
+            raise CourseError(f"the download holds more than {MAX_FILES:,} files; collect it in parts")
     return Download(sorted(files, key=lambda file: file.path), refused)
 
 

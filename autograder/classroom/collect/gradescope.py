@@ -14,8 +14,9 @@ from typing import Any
 
 import yaml
 
-from autograder.classroom.collect.download import Download, Refused, UnusableDownload
+from autograder.classroom.collect.download import Download, Refused
 from autograder.classroom.collect.handed_in import Assignment, Reading, without_wrapper
+from ros_runtime.course_error import CourseError
 
 EXPECTED = "submission_metadata.yml, and folders such as submission_12345 beside it"
 METADATA = "submission_metadata.yml"
@@ -35,7 +36,7 @@ _Loader.add_multi_constructor("!ruby/", _plain)
 
 
 def read(download: Download, assignment: Assignment) -> Reading:
-    """Return every student's files; raises `UnusableDownload` without usable metadata."""
+    """Return every student's files; raises `CourseError` without usable metadata."""
     reading = Reading()
     submissions = _metadata(download)
     for file, parts in without_wrapper(download, _FOLDER):
@@ -59,15 +60,13 @@ def read(download: Download, assignment: Assignment) -> Reading:
 def _metadata(download: Download) -> Mapping[str, Any]:
     places = [file for file, parts in without_wrapper(download, _FOLDER) if parts == (METADATA,)]
     if not places:
-        raise UnusableDownload(
-            f"there is no {METADATA}; expected Gradescope's export of submissions: {EXPECTED}"
-        )
+        raise CourseError(f"there is no {METADATA}; expected Gradescope's export of submissions: {EXPECTED}")
     try:
         read = yaml.load(places[0].read(MAX_METADATA_BYTES), Loader=_Loader)
     except (yaml.YAMLError, Refused, ValueError, RecursionError) as error:
-        raise UnusableDownload(f"{places[0].path} cannot be read: {error}") from error
+        raise CourseError(f"{places[0].path} cannot be read: {error}") from error
     if not isinstance(read, Mapping):
-        raise UnusableDownload(f"{places[0].path} is not a list of submissions; expected {EXPECTED}")
+        raise CourseError(f"{places[0].path} is not a list of submissions; expected {EXPECTED}")
     return read
 
 

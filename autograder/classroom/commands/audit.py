@@ -12,20 +12,13 @@ from autograder.classroom.audit.audit_record import AuditRecord, read_runs
 from autograder.classroom.audit.fault_patch import SUFFIX, as_patch
 from autograder.classroom.audit.generated.run import audit_generated, mutant_named
 from autograder.classroom.audit.kill_matrix import kill_matrix, print_progress
-from autograder.classroom.audit.known_submission import (
-    HeaderError,
-    KnownSubmission,
-    known_submission,
-    known_submissions,
-)
-from autograder.classroom.audit.leftovers import leftovers
+from autograder.classroom.audit.known_submission import KnownSubmission, known_submission, known_submissions
 from autograder.classroom.audit.run import AuditedRun
 from autograder.classroom.audit.run import audit as audit_submissions
 from autograder.engine.exercise import Exercise, exercise_names, load_exercise
 from autograder.isolation.availability import available_isolation
-from course_cli.ending import COMMAND_FAILED, error_exit
 from course_cli.options import CourseOption, JobsOption
-from ros_runtime.course_error import CourseError
+from ros_runtime.course_error import COMMAND_FAILED, CommandFailed, CourseError
 
 MATRIX_WIDTH = 140  # characters
 
@@ -104,7 +97,6 @@ def audit(
     earlier = read_runs(json_file) if resume and json_file else ()
     record = AuditRecord(json_file, isolation=available_isolation(), scale=scale, earlier=earlier)
     exercises = (load_exercise(name, hidden=True) for name in ([exercise] if exercise else exercise_names()))
-    left: list[str] = []
     try:
         if generated:
             judged = [
@@ -116,24 +108,21 @@ def audit(
             ]
             found, is_as_expected = len(judged), all(one.noticed_by for one in judged)
         else:
-            with leftovers() as left:
-                runs = [
-                    run
-                    for one in exercises
-                    for run in _audit(console, one, record, only, jobs=jobs, repeat=repeat, seed=seed)
-                ]
-            found, is_as_expected = len(runs), not (left or any(run.surprises() for run in runs))
+            runs = [
+                run
+                for one in exercises
+                for run in _audit(console, one, record, only, jobs=jobs, repeat=repeat, seed=seed)
+            ]
+            found, is_as_expected = len(runs), not any(run.surprises() for run in runs)
     except KeyboardInterrupt:
         advice = (
             f"{json_file} has the finished gradings: add --resume to continue."
             if json_file
             else "No grading is saved."
         )
-        raise error_exit(console, f"Interrupted. {advice}", COMMAND_FAILED) from None
+        raise CommandFailed(f"Interrupted. {advice}") from None
     if not found:
         raise CourseError(f"no {'mutant' if generated else 'submission'} matches {only!r}")
-    for line in left:
-        console.print(f"left behind: {line}", style="red", markup=False)
     raise typer.Exit(0 if is_as_expected else COMMAND_FAILED)
 
 
@@ -178,7 +167,7 @@ def _found(exercise: str | None, name: str) -> KnownSubmission:
         [exercise] if exercise else [one for one in exercise_names() if known_submissions(one, only=name)]
     )
     if len(having) != 1:
-        raise HeaderError(
+        raise CourseError(
             f"{name} is a submission of {', '.join(having) or 'no exercise'}; give one exercise, too"
         )
     return known_submission(having[0], name)
@@ -194,9 +183,9 @@ def _show(known: KnownSubmission) -> None:
 
 
 def _show_mutant(exercise: str | None, name: str) -> None:
-    """Print a mutant's sentence and diff; raises `HeaderError` if there is no such mutant."""
+    """Print a mutant's sentence and diff; raises `CourseError` if there is no such mutant."""
     if exercise is None:
-        raise HeaderError(
+        raise CourseError(
             f"give the mutant's exercise, too: ./course audit EXERCISE --generated --show {name}"
         )
     mutant = mutant_named(exercise, name)

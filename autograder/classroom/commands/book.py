@@ -11,10 +11,10 @@ import typer
 from nbformat import NotebookNode
 from rich.console import Console
 
+from autograder.classroom.book.chapter_run import KeptRuns
 from autograder.classroom.book.chapter_run import execute as execute_chapter
-from autograder.classroom.book.kept_runs import KeptRuns
 from autograder.classroom.book.site import make_site
-from course_cli.ending import COMMAND_FAILED, error_exit
+from ros_runtime.course_error import CommandFailed
 from ros_runtime.project import PROJECT
 
 WORK = PROJECT / "build" / "book"
@@ -36,10 +36,8 @@ def book(
     try:
         first_page = make_site(output, WORK, _runs(console) if execute else {})
     except KeyboardInterrupt:
-        raise error_exit(
-            console,
-            "Interrupted. The outputs of finished chapters are kept: type the same command again to continue.",
-            COMMAND_FAILED,
+        raise CommandFailed(
+            "Interrupted. The outputs of finished chapters are kept: type the same command again to continue."
         ) from None
     console.print(f"The book: {first_page}", markup=False, soft_wrap=True)
 

@@ -11,15 +11,15 @@ from rich.console import Console
 
 from autograder.classroom.collect import canvas, classroom50, gradescope, moodle
 from autograder.classroom.collect.choice import choose
-from autograder.classroom.collect.download import UnusableDownload, open_download
+from autograder.classroom.collect.download import open_download
 from autograder.classroom.collect.handed_in import Assignment, Reading
 from autograder.classroom.collect.placing import Placed, place
 from autograder.classroom.dates import read_deadlines
 from autograder.engine.exercise import UnknownExercise, all_names
 from autograder.engine.hand_in import work_in
 from autograder.engine.submission import UnusableSubmission, read_submission
-from course_cli.ending import COMMAND_FAILED, error_exit
 from course_cli.options import CourseOption, DatesOption
+from ros_runtime.course_error import COMMAND_FAILED, CommandFailed, CourseError
 
 # The reader of each platform's downloads.
 PLATFORMS = {"canvas": canvas, "moodle": moodle, "gradescope": gradescope, "classroom50": classroom50}
@@ -65,13 +65,13 @@ def collect(
             if not choice.works and not reading.refused:
                 aside = [*reading.unknown, *choice.left_aside]
                 found = f"found {aside[0]}" if aside else "it is empty"
-                raise UnusableDownload(
+                raise CourseError(
                     f"{download} holds nothing to grade: expected {source.EXPECTED}; {found}"
                     + (f", and {len(aside) - 1} more" if len(aside) > 1 else "")
                 )
             placed = place(choice, out, overwrite=overwrite)
     except OSError as error:
-        raise error_exit(console, f"{out} cannot be written: {error}", COMMAND_FAILED) from error
+        raise CommandFailed(f"{out} cannot be written: {error}") from error
     for line in [*reading.unknown, *choice.left_aside]:
         console.print(f"left aside: {line}", style="yellow", markup=False)
     if without := {one.student for one in reading.files} - {student for student, _ in choice.works}:

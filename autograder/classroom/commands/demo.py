@@ -28,10 +28,9 @@ from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.rendering import Section, write_page
 from autograder.report.sequence import transcript_svg
 from autograder.report.table import MARKS, summary
-from course_cli.ending import COMMAND_FAILED, NOT_GRADED
 from course_cli.options import JobsOption
 from humanoid_interfaces.action import WalkTo
-from ros_runtime.course_error import CourseError
+from ros_runtime.course_error import COMMAND_FAILED, NOT_GRADED, CourseError
 from ros_runtime.project import PROJECT
 
 EXERCISE = "cancellable_walk"

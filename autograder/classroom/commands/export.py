@@ -13,7 +13,7 @@ from rich.console import Console
 from autograder.classroom.export.formats import FORMATS, Export, LeftOut, read_batch
 from autograder.classroom.export.formats import export as make_export
 from autograder.classroom.export.published import Options, UnusableBatch
-from course_cli.ending import COMMAND_FAILED, error_exit
+from ros_runtime.course_error import COMMAND_FAILED, CommandFailed
 
 Format = Enum("Format", {name: name for name in FORMATS}, type=str)  # type: ignore[misc]
 
@@ -79,7 +79,7 @@ def export(
     try:
         made.write(folder)
     except OSError as error:
-        raise error_exit(console, f"{folder} cannot be written: {error}", COMMAND_FAILED) from error
+        raise CommandFailed(f"{folder} cannot be written: {error}") from error
     _print_summary(console, made, folder)
     is_score_lost = any(left.has_score for left in made.left_out)
     # Classroom 50's format cannot express “not graded”, so only the exit status reports it.

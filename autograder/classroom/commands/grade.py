@@ -9,13 +9,13 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from autograder.classroom.batch.request import BatchRequest, UnusableRequest
+from autograder.classroom.batch.request import BatchRequest
 from autograder.classroom.batch.shards import Shard
 from autograder.classroom.class_grading.once import grade_once
 from autograder.classroom.class_grading.watching import watch_and_grade
 from autograder.classroom.dates import read_deadlines
-from course_cli.ending import COMMAND_FAILED, UNUSABLE, error_exit
 from course_cli.options import CourseOption, DatesOption, JobsOption
+from ros_runtime.course_error import COMMAND_FAILED, CourseError
 
 
 def grade(
@@ -85,26 +85,23 @@ def grade(
 ) -> None:
     """Grade a batch of submissions."""
     console = Console(highlight=False)
-    try:
-        folder = _one_folder(submitted, watch)
-        request = BatchRequest(
-            submitted=folder,
-            out=out,
-            jobs=jobs,
-            resume=resume,
-            seed=seed,
-            seed_per_student=seed_per_student,
-            students=tuple(student or ()),
-            exercises=tuple(exercise or ()),
-            shard=Shard.parse(shard) if shard else None,
-            dask=dask,
-            json_file=json_file,
-            watch=watch is not None,
-            record=record,
-            deadlines=read_deadlines(dates, folder),
-        )
-    except ValueError as error:  # a malformed shard, or options that exclude each other
-        raise error_exit(console, error, UNUSABLE) from error
+    folder = _one_folder(submitted, watch)
+    request = BatchRequest(
+        submitted=folder,
+        out=out,
+        jobs=jobs,
+        resume=resume,
+        seed=seed,
+        seed_per_student=seed_per_student,
+        students=tuple(student or ()),
+        exercises=tuple(exercise or ()),
+        shard=Shard.parse(shard) if shard else None,
+        dask=dask,
+        json_file=json_file,
+        watch=watch is not None,
+        record=record,
+        deadlines=read_deadlines(dates, folder),
+    )
     try:
         status = watch_and_grade(console, request) if request.watch else grade_once(console, request)
     except KeyboardInterrupt:
@@ -114,10 +111,10 @@ def grade(
 
 
 def _one_folder(submitted: Path | None, watched: Path | None) -> Path:
-    """Return the folder to grade; raises `UnusableRequest` unless exactly one is given."""
+    """Return the folder to grade; raises `CourseError` unless exactly one is given."""
     folder = watched or submitted
     if folder is None or (watched and submitted):
-        raise UnusableRequest(
+        raise CourseError(
             "give one folder of submissions: course grade FOLDER, or course grade --watch FOLDER"
         )
     return folder

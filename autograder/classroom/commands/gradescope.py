@@ -10,7 +10,7 @@ import typer
 from rich.console import Console
 
 from autograder.classroom.on_gradescope.container import CannotGrade, Container, isolation_here
-from course_cli.ending import COMMAND_FAILED, error_exit
+from ros_runtime.course_error import COMMAND_FAILED, CommandFailed
 from ros_runtime.project import PROJECT
 
 
@@ -38,7 +38,7 @@ def gradescope(
         results = grade_upload(container, exercise, isolation)
     except CannotGrade as error:
         container.write(WITHOUT_SCORE)
-        raise error_exit(console, f"not graded: {error}", COMMAND_FAILED) from error
+        raise CommandFailed(f"not graded: {error}") from error
     except Exception as error:  # any other error is the grader's fault, not the student's
         container.write(WITHOUT_SCORE)
         traceback.print_exc()

@@ -10,8 +10,8 @@ from rich.console import Console
 
 from autograder.classroom.archives.gradescope_package import write_package
 from autograder.engine.exercise import essay_names, exercise_names
-from course_cli.ending import COMMAND_FAILED, UNUSABLE, error_exit
 from course_cli.options import CourseOption
+from ros_runtime.course_error import CommandFailed, CourseError
 from ros_runtime.project import PROJECT
 
 package = typer.Typer(no_args_is_help=True)
@@ -35,14 +35,12 @@ def gradescope(
     """Make the zip file of a Gradescope autograder: it has visible checks, and runs submissions as another user."""
     console = Console(highlight=False)
     if exercise in essay_names():
-        raise error_exit(console, f"{exercise} has no checks: a person marks it", UNUSABLE)
+        raise CourseError(f"{exercise} has no checks: a person marks it")
     if exercise and exercise not in exercise_names():
-        raise error_exit(
-            console, f"there is no exercise {exercise!r}; there are {', '.join(exercise_names())}", UNUSABLE
-        )
+        raise CourseError(f"there is no exercise {exercise!r}; there are {', '.join(exercise_names())}")
     archive = out or Path(f"gradescope_{exercise}.zip" if exercise else "gradescope.zip")
     try:
         count = write_package(PROJECT, archive, exercise)
     except OSError as error:
-        raise error_exit(console, error, COMMAND_FAILED) from error
+        raise CommandFailed(str(error)) from error
     console.print(f"{archive}: {count} files, {archive.stat().st_size / 1e6:.1f} MB", markup=False)

@@ -19,9 +19,8 @@ from autograder.classroom.questions.question import Sheet, keep, kept
 from autograder.engine.exercise import Exercise, load_exercise
 from autograder.engine.stop import Stop
 from autograder.engine.submission import UnusableSubmission
-from course_cli.ending import COMMAND_FAILED, error_exit
 from course_cli.options import CourseOption, JobsOption
-from ros_runtime.course_error import CourseError
+from ros_runtime.course_error import COMMAND_FAILED, CommandFailed, CourseError
 
 KEPT = ".kept"  # in the output folder: the finished students
 
@@ -63,8 +62,7 @@ def questions(
     try:
         sheets = _make(console, loaded, works, out / exercise / KEPT, number, jobs)
     except KeyboardInterrupt:
-        again = "Interrupted. Type the same command again to continue."
-        raise error_exit(console, again, COMMAND_FAILED) from None
+        raise CommandFailed("Interrupted. Type the same command again to continue.") from None
     write_pages(out / exercise, exercise, sheets)
     asked = sum(len(sheet.questions) for sheet in sheets)
     console.print(

@@ -11,12 +11,10 @@ from rich.console import Console
 
 from autograder.classroom.archives.released_part import part_of
 from autograder.classroom.archives.student_bundle import write_bundle
-from autograder.classroom.nbgrader_bridge.course_folder import NbgraderError
 from autograder.classroom.nbgrader_bridge.release import bring_up_to_date, out_of_date
 from autograder.engine.exercise import exercises_folder
-from course_cli.ending import COMMAND_FAILED, UNUSABLE, error_exit
 from course_cli.options import CourseOption
-from ros_runtime.course_error import CourseError
+from ros_runtime.course_error import COMMAND_FAILED, CourseError
 from ros_runtime.project import PROJECT
 
 
@@ -51,15 +49,12 @@ def release(
 ) -> None:
     """Write the students' archive, without solutions and hidden checks."""
     console = Console(highlight=False)
-    try:
-        if check:
-            _report_differences(console)
-        elif exercises:
-            _update(console)
-        else:
-            _write(console, out, wanted or [], until)
-    except NbgraderError as error:
-        raise error_exit(console, error, UNUSABLE) from error
+    if check:
+        _report_differences(console)
+    elif exercises:
+        _update(console)
+    else:
+        _write(console, out, wanted or [], until)
 
 
 def _report_differences(console: Console) -> None:

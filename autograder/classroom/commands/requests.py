@@ -21,8 +21,8 @@ from autograder.classroom.regrade_requests import (
     read_state,
     write_state,
 )
-from course_cli.ending import COMMAND_FAILED
 from course_cli.options import CourseOption, JobsOption
+from ros_runtime.course_error import COMMAND_FAILED
 
 
 def requests(

@@ -17,6 +17,7 @@ from nbgrader.preprocessors import SaveCells
 from traitlets.config import Config
 
 from autograder.atomic_file import write_atomically
+from ros_runtime.course_error import CourseError
 
 CONFIG_FILE = "nbgrader_config.py"
 RELEASE = "release"  # folder of the release notebooks
@@ -52,7 +53,7 @@ _OPTIONS: dict[str, Any] = {
 }
 
 
-class NbgraderError(Exception):
+class NbgraderError(CourseError):
     """A call to nbgrader failed; the message is the last error in nbgrader's log, and `log` is the whole log."""
 
     def __init__(self, message: str, log: str) -> None:

@@ -23,22 +23,18 @@ _SOLUTION, _TASK = f"solution.py{_TEMPLATE}", f"task.md{_TEMPLATE}"
 _MARKS = re.compile(r"^ *### (BEGIN|END) SOLUTION\n", re.MULTILINE)
 
 
-class CannotMake(CourseError):
-    """The exercise cannot be created; the message says why."""
-
-
 def make_exercise(name: str, kind: str, course: Path) -> Path:
     """Create `course`/`name`/, an exercise of one of KINDS, and return that folder.
 
-    Raises `CannotMake` if the name is invalid or the folder exists.
+    Raises `CourseError` if the name is invalid or the folder exists.
     """
     if not _NAME.fullmatch(name) or keyword.iskeyword(name):
-        raise CannotMake(
+        raise CourseError(
             f"{name!r} cannot be an exercise's name: use small letters, digits and _, as in battery_service"
         )
     folder = course / name
     if folder.exists():
-        raise CannotMake(f"{folder} exists already; choose another name, or remove the folder")
+        raise CourseError(f"{folder} exists already; choose another name, or remove the folder")
     words = {"name": name, "title": name.replace("_", " ").capitalize(), "type_name": _type_name(name)}
     templates = Environment(
         loader=FileSystemLoader(KINDS_FOLDER / kind), undefined=StrictUndefined, keep_trailing_newline=True

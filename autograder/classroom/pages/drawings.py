@@ -21,9 +21,8 @@ FOLDER = Path("cache/drawings")
 DRAWN = ("failed", "error")
 MAX_DRAWN_RUNS = 3  # of one check
 
-DrawnRuns = Mapping[
-    str, Sequence[str]
-]  # SVG drawings of the runs that a check was judged on, by the check's id
+# SVG drawings of the runs that a check was judged on, by the check's id
+DrawnRuns = Mapping[str, Sequence[str]]
 
 
 @dataclass(frozen=True)

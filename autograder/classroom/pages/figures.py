@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
 
+from autograder.authoring.lesson import in_words
 from autograder.engine.verdict import CheckVerdict, Grade
 
 TENTHS = [f"{10 * tenth}–{10 * tenth + 9}" for tenth in range(10)]
 FULL = "100"
 NEEDS_HELP = 0.6  # share of the points; submissions with less are listed
 MAX_TOPICS = 3  # listed for one submission
-_LESSON = re.compile(r"Read (chapters/[^,]+, “.+”)\.$")  # at the end of a failed check's advice
 
 
 @dataclass(frozen=True)
@@ -109,9 +108,10 @@ def lessons_to_repeat(grades: Sequence[Grade]) -> list[Lesson]:
     students: dict[str, dict[str, set[str]]] = {}
     for grade in grades:
         for verdict in grade.checks if grade.status == "graded" else ():
-            if verdict.status == "failed" and (lesson := _LESSON.search(verdict.help)):
-                students.setdefault(lesson[1], {}).setdefault(grade.exercise, set()).add(grade.student)
-    lessons = [Lesson(words, theirs) for words, theirs in students.items()]
+            if verdict.status == "failed" and verdict.lesson:
+                theirs = students.setdefault(in_words(verdict.lesson), {})
+                theirs.setdefault(grade.exercise, set()).add(grade.student)
+    lessons = [Lesson(words, who) for words, who in students.items()]
     return sorted(lessons, key=lambda lesson: (-lesson.count, lesson.words))
 
 

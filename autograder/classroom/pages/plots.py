@@ -18,7 +18,7 @@ from matplotlib.ticker import MaxNLocator
 
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
-from ros_runtime.drawing.xml_text import escape
+from ros_runtime.drawing.svg import escape
 from ros_runtime.message_constants import GoalStatus, name_of
 
 # Margins around the panel, in inches; they are fixed, because measuring the texts is slow.

@@ -13,11 +13,7 @@ from robot_sim.model.scenes import SCENES
 
 
 class RecordedBody:
-    """A humanoid that can be set to the postures of a recording.
-
-    Raises:
-        UnusableRecording: the recording was made with another robot or scene.
-    """
+    """A humanoid that can be set to the postures of a recording."""
 
     def __init__(self, recording: Recording) -> None:
         scene = recording.about["scene"]

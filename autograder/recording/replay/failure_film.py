@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -14,10 +13,9 @@ from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import Exercise
 from autograder.engine.judging import failed_scenarios
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.recording.kept import SUFFIX, keep
 from autograder.recording.recorder import Recorder
 from autograder.recording.replay.film import film
-from autograder.recording.replay.recording import Posture, Recording, Span, span_of
+from autograder.recording.replay.recording import Posture, Span, recordings_in, span_of
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 LEAST_MOTION = 0.05  # m or rad; a standing robot sways by less
@@ -50,23 +48,21 @@ class FailureFilms:
                 return f"These seconds are in the film of “{earlier.title}”.", b""
         if len(self._filmed) == MOST_FILMS:
             return "", b""
-        with TemporaryDirectory() as folder:
-            alone = replace(self._exercise, checks=[replace(check, on=(failed[0],))])
-            recorder = Recorder(alone, for_students=True)
-            recorder.add(verdict, [run])
-            keep(Path(folder), recorder.files(replace(self._grade, checks=[verdict])))
-            recording = Recording.read(next(Path(folder).glob(f"*{SUFFIX}")))
-            span = span_of(recording, verdict.id, None)
-            shown = [posture for posture in recording.postures if span.start <= posture.t <= span.end]
-            if not _moves(shown):
-                return "", b""
-            self._filmed.append((verdict, run, span))
-            webp = Path(folder, "film.webp")
-            try:
-                film(recording, span, webp)
-            except NoOpenGLError as error:
-                return f"No film: {error}", b""
-            return _words(shown, verdict), webp.read_bytes()
+        alone = replace(self._exercise, checks=[replace(check, on=(failed[0],))])
+        recorder = Recorder(alone, for_students=True)
+        recorder.add(verdict, [run])
+        (recording,) = recordings_in(recorder.files(replace(self._grade, checks=[verdict])))
+        span = span_of(recording, verdict.id, None)
+        shown = [posture for posture in recording.postures if span.start <= posture.t <= span.end]
+        if not _moves(shown):
+            return "", b""
+        self._filmed.append((verdict, run, span))
+        webp = io.BytesIO()
+        try:
+            film(recording, span, webp)
+        except NoOpenGLError as error:
+            return f"No film: {error}", b""
+        return _words(shown, verdict), webp.getvalue()
 
 
 def _moves(shown: Sequence[Posture]) -> bool:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
-from typing import Literal
+from typing import BinaryIO, Literal
 
 import matplotlib
 import numpy as np
@@ -22,22 +22,29 @@ FRAME_RATE = 12.5  # frames a second
 MAX_DURATION = 60.0  # s
 WIDTH, HEIGHT = 480, 360  # px of the picture without the text
 LAST_FRAME_DURATION = 1.5  # s, so that the verdict can be read
-FORMATS: Mapping[str, Literal["WEBP", "GIF"]] = {".webp": "WEBP", ".gif": "GIF"}
+Format = Literal["WEBP", "GIF"]
+FORMATS: Mapping[str, Format] = {".webp": "WEBP", ".gif": "GIF"}
 FONT_SIZE = 13  # px
 LINE_HEIGHT = 17  # px
 MARGIN = 8  # px
 BACKGROUND = "#16181d"
 
 
-def film(recording: Recording, span: Span, file: Path, *, camera: str = "track", speed: float = 1.0) -> int:
+def film(
+    recording: Recording,
+    span: Span,
+    file: Path | BinaryIO,
+    kind: Format = "WEBP",
+    *,
+    camera: str = "track",
+    speed: float = 1.0,
+) -> int:
     """Write a film of the robot in this span, played `speed` times as fast; return the number of frames.
 
     Raises:
-        ValueError: the file's suffix is not in FORMATS, the span is too long, or there is no such camera.
-        UnusableRecording: the recording was made with another robot or scene.
+        ValueError: the span is too long, or there is no such camera.
         NoOpenGLError: this machine cannot draw pictures.
     """
-    require_known_format(file)
     duration = (span.end - span.start) / speed
     if duration > MAX_DURATION:
         raise ValueError(
@@ -45,17 +52,18 @@ def film(recording: Recording, span: Span, file: Path, *, camera: str = "track",
             "with --seconds and --around"
         )
     frames = _frames(recording, span, camera, FRAME_RATE / speed)
-    save_frames(file, frames, FORMATS[file.suffix.lower()], FRAME_RATE, last=LAST_FRAME_DURATION)
+    save_frames(file, frames, kind, FRAME_RATE, last=LAST_FRAME_DURATION)
     return len(frames)
 
 
-def require_known_format(file: Path) -> None:
-    """Require a file name with the suffix of a known film format."""
+def format_of(file: Path) -> Format:
+    """Return the format of a film file, by its suffix; raises ValueError if it is not in FORMATS."""
     if file.suffix.lower() not in FORMATS:
         raise ValueError(
             f"{file.name} has the suffix {file.suffix or '“”'}; expected {' or '.join(FORMATS)} (ffmpeg converts these "
             "to other formats)"
         )
+    return FORMATS[file.suffix.lower()]
 
 
 def _frames(recording: Recording, span: Span, camera: str, rate: float) -> list[Image.Image]:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from mcap.reader import make_reader
 from rcl_interfaces.msg import Log
@@ -78,24 +79,25 @@ class Recording:
 
     @classmethod
     def read(cls, path: Path) -> Recording:
-        """Read a file.
-
-        Raises:
-            UnusableRecording: the file is not a recording, is damaged, or was written by another version.
-        """
+        """Read a file; raises the same as `parsed`."""
         _require_a_small_file(path)
+        with path.open("rb") as file:
+            return cls.parsed(file, path)
+
+    @classmethod
+    def parsed(cls, file: IO[bytes], path: Path) -> Recording:
+        """Read an open file."""
         try:
-            with path.open("rb") as file:
-                reader = make_reader(file, validate_crcs=True)
-                about = _metadata(path, reader.iter_metadata())
-                collected = _Collected(about["namespace"])
-                for number, (schema, channel, message) in enumerate(reader.iter_messages()):
-                    if number >= MAX_MESSAGES:
-                        raise UnusableRecording(
-                            f"{path} holds more than {MAX_MESSAGES:,} messages, too many to show"
-                        )
-                    if schema:
-                        collected.add(message.log_time / 1e9, channel.topic, schema.name, message.data)
+            reader = make_reader(file, validate_crcs=True)
+            about = _metadata(path, reader.iter_metadata())
+            collected = _Collected(about["namespace"])
+            for number, (schema, channel, message) in enumerate(reader.iter_messages()):
+                if number >= MAX_MESSAGES:
+                    raise UnusableRecording(
+                        f"{path} holds more than {MAX_MESSAGES:,} messages, too many to show"
+                    )
+                if schema:
+                    collected.add(message.log_time / 1e9, channel.topic, schema.name, message.data)
         except UnusableRecording:
             raise
         except Exception as error:  # three libraries raise different errors for malformed bytes
@@ -117,16 +119,17 @@ class Recording:
         return min(failed, key=lambda moment: moment.t, default=None)
 
     def verdict(self, check: str) -> Moment:
-        """Return the verdict of a check.
-
-        Raises:
-            UnusableRecording: the check did not judge this run; the message lists the checks that did.
-        """
+        """Return the verdict of a check."""
         verdicts = {moment.check: moment for moment in reversed(self.moments) if moment.check}
         if check in verdicts:
             return verdicts[check]
         known = ", ".join(reversed(verdicts)) or "none"
         raise UnusableRecording(f"no check {check!r} judged this run; the checks that did are {known}")
+
+
+def recordings_in(files: Mapping[str, bytes]) -> list[Recording]:
+    """Return the recordings of files that are not written to disk, by their names; raises the same as `parsed`."""
+    return [Recording.parsed(io.BytesIO(content), Path(name)) for name, content in sorted(files.items())]
 
 
 class _Collected:
@@ -236,7 +239,6 @@ def span_of(recording: Recording, around: str | None, seconds: float | None) -> 
         seconds: length of the part, or None; if no check failed, the part starts at the beginning.
 
     Raises:
-        UnusableRecording: there is no such check.
         ValueError: the duration is not positive.
     """
     if seconds is not None and not seconds > 0:

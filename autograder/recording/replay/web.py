@@ -35,7 +35,6 @@ def play(
         keep_running: called before every frame; False ends the loop.
 
     Raises:
-        UnusableRecording: the recording was made with another robot or scene.
         OSError: the port is taken.
         ImportError: this MuJoCo is older than 4.0 and has no web viewer.
     """

@@ -104,9 +104,8 @@ def feedback() -> None:
     The node is spun, because the student's lines may wait by a timer or a rate.
     """
     node = import_module("told_walk").ToldWalker()
-    for subscription in list(
-        node.subscriptions
-    ):  # otherwise it would receive the data of the notebook's robot
+    # otherwise it would receive the data of the notebook's robot
+    for subscription in list(node.subscriptions):
         node.destroy_subscription(subscription)
     robot = ToyRobot(node)
     handle = ToyGoalHandle(robot)

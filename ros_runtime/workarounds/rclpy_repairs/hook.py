@@ -30,6 +30,7 @@ def install() -> None:
     for name, repair in (
         ("rclpy.executors", _repair_executors),
         ("rclpy.action.client", _repair_action_client),
+        ("rclpy.event_handler", _repair_event_handler),
         ("rclpy.experimental.events_executor", _repair_events_executor),
     ):
         if name not in sys.modules:
@@ -51,6 +52,14 @@ def _repair_action_client(module: ModuleType) -> None:
 
     if lost_answers.needs_repair(module):
         lost_answers.repair(module)
+
+
+def _repair_event_handler(module: ModuleType) -> None:
+    from ros_runtime.workarounds.rclpy_repairs import destroyed_handler
+    from ros_runtime.workarounds.rclpy_repairs.version import installed_version
+
+    if destroyed_handler.needs_repair(installed_version()):
+        destroyed_handler.repair(module)
 
 
 def _repair_events_executor(module: ModuleType) -> None:

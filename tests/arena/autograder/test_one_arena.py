@@ -19,7 +19,7 @@ from autograder.isolation.process_tree import descendants
 pytestmark = pytest.mark.skipif(
     not available_isolation().trusted, reason=f"no namespaces here: {available_isolation().reason}"
 )
-QUIZ = Exercise("patterns", exercises_folder() / "patterns", (), False)
+QUIZ = Exercise("patterns", exercises_folder() / "patterns", ())
 PROGRAM = Scenario("print_answers", robot=None, student="program")
 
 # It leaves a process that ignores signals, files, a socket and shared memory, and searches for all of them.

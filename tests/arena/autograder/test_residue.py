@@ -12,10 +12,10 @@ from pathlib import Path
 import pytest
 
 from autograder.classroom.audit.known_submission import KnownSubmission, known_submission
-from autograder.classroom.audit.leftovers import leftovers
 from autograder.classroom.audit.run import audit_one
 from autograder.engine.exercise import Exercise, load_exercise
 from autograder.isolation.availability import available_isolation
+from leftovers import leftovers
 from ros_runtime.ros_domain import ReservedDomain
 
 EXERCISE = "battery_service"

@@ -171,7 +171,7 @@ else:
 def exercise(tmp_path_factory: pytest.TempPathFactory) -> Exercise:
     folder = tmp_path_factory.mktemp("client")
     (folder / "scenarios.py").write_text(SCENARIOS)
-    return Exercise(NAME, folder, (), False)
+    return Exercise(NAME, folder, ())
 
 
 @pytest.fixture(scope="module")

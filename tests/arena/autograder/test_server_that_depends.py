@@ -65,7 +65,7 @@ rclpy.spin(node)
 
 def test_a_server_uses_the_stages_service_and_topic_and_its_messages_are_recorded(tmp_path) -> None:
     (tmp_path / "scenarios.py").write_text(SCENARIOS)
-    exercise = Exercise(NAME, tmp_path, (), False)
+    exercise = Exercise(NAME, tmp_path, ())
     scenario = Scenario("asks_and_tells", robot=None)
     transcript = run_in_arena(ArenaRun(exercise, {f"{NAME}.py": SERVER.encode()}, scenario))
     assert transcript.first(ev.ScenarioEnded), transcript.output()

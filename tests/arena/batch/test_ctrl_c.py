@@ -13,8 +13,8 @@ from pathlib import Path
 import psutil
 import pytest
 
-from autograder.classroom.audit.leftovers import leftovers
 from autograder.isolation.availability import available_isolation
+from leftovers import leftovers
 
 FILE = "walk_client.py"
 AT_MOST = 10.0  # s on a busy machine, of which an arena that has just begun would last 20 and more

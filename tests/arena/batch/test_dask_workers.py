@@ -11,12 +11,13 @@ import pytest
 from distributed import LocalCluster
 
 from autograder.classroom.batch import dask_workers as module
-from autograder.classroom.batch.dask_workers import NoCluster, dask_cluster
+from autograder.classroom.batch.dask_workers import dask_cluster
 from autograder.classroom.batch.job import GradingJob, Outcome, carry_out
 from autograder.classroom.batch.worker_pool import WorkerPool
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
+from ros_runtime.course_error import CommandFailed
 
 STUDENTS = [f"student{number:02}" for number in range(20)]
 
@@ -80,11 +81,11 @@ def test_only_isolated_workers_are_chosen_where_there_are_any():
 
 def test_an_absent_scheduler_or_package_says_what_to_do(monkeypatch):
     monkeypatch.setattr(module, "_CONNECT_TIMEOUT", 0.5)
-    with pytest.raises(NoCluster, match="dask scheduler"), dask_cluster("tcp://127.0.0.1:1"):
+    with pytest.raises(CommandFailed, match="dask scheduler"), dask_cluster("tcp://127.0.0.1:1"):
         pass
     monkeypatch.setitem(__import__("sys").modules, "distributed", None)
     with (
-        pytest.raises(NoCluster, match=r"pip install .* dask distributed"),
+        pytest.raises(CommandFailed, match=r"pip install .* dask distributed"),
         dask_cluster("tcp://127.0.0.1:1"),
     ):
         pass

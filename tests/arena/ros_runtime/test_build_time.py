@@ -9,7 +9,7 @@ import pytest
 
 LIMITED = """
 import subprocess, sys
-from ros_runtime.interface_build.build_time import BuildTooLong, limit_processor_time
+from ros_runtime.interface_build.__main__ import BuildTooLong, limit_processor_time
 try:
     with limit_processor_time(1):
         {work}

@@ -55,9 +55,8 @@ class Summary:
     failures: tuple[str, ...] = ()
 
 
-Attempt = tuple[
-    Humanoid, str, dict[str, float]
-]  # the robot afterwards, what is wrong or "", measured numbers
+# the robot afterwards, what is wrong or "", measured numbers
+Attempt = tuple[Humanoid, str, dict[str, float]]
 
 
 class Trial(ABC):

@@ -9,8 +9,8 @@ import pytest
 pytest.importorskip("rclpy")
 
 from autograder.arena import events as ev
+from autograder.arena.agent import keep_spinning
 from autograder.arena.arena_log import ArenaLog
-from autograder.arena.spinning import keep_spinning
 
 
 class Executor:

@@ -9,10 +9,11 @@ from rich.console import Console
 
 from autograder.authoring.checks import Scenario, check
 from autograder.classroom.audit.kill_matrix import figures, kill_matrix
-from autograder.classroom.audit.known_submission import HeaderError, known_submissions, read_known_submission
+from autograder.classroom.audit.known_submission import known_submissions, read_known_submission
 from autograder.classroom.audit.run import AuditedRun, audit, unproved_checks
 from autograder.engine.exercise import FOLDER_VARIABLE, Exercise
 from autograder.engine.verdict import CheckVerdict, Grade
+from ros_runtime.course_error import CourseError
 
 CORRECT = '"""Style: plain."""\n'
 FAULTY = '"""Fault: sleeps\nin the callback (M2)\nCaught by: answers\nAlso fails: ends\n\nCaught by nobody else."""\n'
@@ -44,7 +45,7 @@ def exercise():
 
         judge.__name__ = name
         checks.append(check(points=1, on=Scenario("ask"), needs=checks[-1:])(judge))
-    return Exercise("service", Path("service"), checks, False)
+    return Exercise("service", Path("service"), checks)
 
 
 def read(folder, kind):
@@ -88,7 +89,7 @@ def test_header_is_read_from_a_file_that_python_cannot_parse(folder):
 )
 def test_header_with_missing_or_unknown_lines_is_refused(folder, kind, source, complaint):
     where = folder(**{kind: source})
-    with pytest.raises(HeaderError, match=complaint):
+    with pytest.raises(CourseError, match=complaint):
         read(where, kind)
 
 

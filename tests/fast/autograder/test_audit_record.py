@@ -6,7 +6,7 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from autograder.classroom.audit.audit_record import AuditRecord, UnusableAuditRecord, read_runs
+from autograder.classroom.audit.audit_record import AuditRecord, read_runs
 from autograder.classroom.audit.known_submission import known_submissions
 from autograder.classroom.audit.run import AuditedRun, for_any_fault
 from autograder.engine.exercise import load_exercise
@@ -14,6 +14,7 @@ from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
 from course_cli.app import app
+from ros_runtime.course_error import CourseError
 
 ISOLATED = Isolation(Kind.NAMESPACES, "as a test says")
 EXERCISE = load_exercise("battery_service", hidden=True)
@@ -112,9 +113,7 @@ def test_the_file_is_whole_after_every_run_and_keeps_what_it_had(of_yesterday, p
 @pytest.mark.parametrize("text", ["", "[]", '{"battery_service": [{"grade": {}}]}', '{"a": 1}'])
 def test_a_file_that_is_not_a_record_is_refused_and_not_changed(path, text):
     path.write_text(text)
-    with pytest.raises(
-        UnusableAuditRecord, match=r"was not written by course audit --json.*leave out --resume"
-    ):
+    with pytest.raises(CourseError, match=r"was not written by course audit --json.*leave out --resume"):
         read_runs(path)
     ran = CliRunner().invoke(app("audit"), ["audit", "battery_service", "--json", str(path), "--resume"])
     assert ran.exit_code == 2

@@ -11,7 +11,7 @@ from autograder.authoring.checks import Scenario
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import CannotBeJudged
-from autograder.engine.bounds import require_bounded
+from autograder.engine.completeness import require_bounded
 from autograder.engine.exercise import exercise_module
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.srv import GetBatteryStatus

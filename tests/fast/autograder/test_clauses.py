@@ -2,8 +2,7 @@
 
 import json
 
-from autograder.engine.clauses import clauses_in, in_words
-from autograder.engine.exercise import load_exercise
+from autograder.engine.exercise import clauses_in, clauses_in_words, load_exercise
 
 TASK = """## The task
 
@@ -25,9 +24,9 @@ def test_clauses_are_the_numbered_items_of_the_task(tmp_path):
     notebook.write_text(json.dumps({"cells": [other, {"id": "task", "source": TASK.splitlines(True)}]}))
     clauses = clauses_in(notebook)
     assert clauses == {1: "The first, code and all, goes on here.", 2: "The second.", 3: "The third."}
-    assert in_words(clauses, [2]) == "clause 2, “The second.”"
-    assert in_words(clauses, [2, 3]) == "clauses 2 (“The second.”), 3 (“The third.”)"
-    assert in_words(clauses, []) == ""
+    assert clauses_in_words(clauses, [2]) == "clause 2, “The second.”"
+    assert clauses_in_words(clauses, [2, 3]) == "clauses 2 (“The second.”), 3 (“The third.”)"
+    assert clauses_in_words(clauses, []) == ""
 
 
 def test_a_copy_without_the_notebook_has_no_clauses(tmp_path):

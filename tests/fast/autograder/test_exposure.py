@@ -9,10 +9,11 @@ import pytest
 from typer.testing import CliRunner
 
 from autograder.classroom.class_grading import prepared_batch
-from autograder.engine.path_exposure import HiddenChecksRefused, require_hidden
+from autograder.engine.path_exposure import require_hidden
 from autograder.isolation.arena_spec import Kind
 from autograder.isolation.availability import Isolation
 from course_cli.app import app
+from ros_runtime.course_error import CommandFailed
 from ros_runtime.project import PROJECT
 
 
@@ -29,7 +30,7 @@ from ros_runtime.project import PROJECT
     ],
 )
 def test_files_inside_a_visible_folder_are_refused(path: str) -> None:
-    with pytest.raises(HiddenChecksRefused, match=r"nothing is graded: .* lies in .*; move it"):
+    with pytest.raises(CommandFailed, match=r"nothing is graded: .* lies in .*; move it"):
         require_hidden([Path("/srv/course"), Path(path)])
 
 
@@ -41,7 +42,7 @@ def test_a_link_is_followed_on_both_sides(tmp_path: Path) -> None:
     (tmp_path / "shown/solutions").mkdir(parents=True)
     (tmp_path / "link").symlink_to(tmp_path / "shown")
     for hidden, shown in (("link/solutions", "shown"), ("shown/solutions", "link")):
-        with pytest.raises(HiddenChecksRefused):
+        with pytest.raises(CommandFailed):
             require_hidden([tmp_path / hidden], [tmp_path / shown])
 
 

@@ -3,10 +3,11 @@
 import pytest
 from typer.testing import CliRunner
 
-from autograder.classroom.audit.fault_patch import PatchError, as_patch, whole_program
+from autograder.classroom.audit.fault_patch import as_patch, whole_program
 from autograder.classroom.audit.known_submission import known_submission, known_submissions
 from autograder.engine.exercise import FOLDER_VARIABLE, exercise_names
 from course_cli.app import app
+from ros_runtime.course_error import CourseError
 
 SOUND = '"""Style: plain."""\n' + "".join(f"line_{number} = {number}\n" for number in range(20))
 FAULTY = '"""Fault: forgets\nCaught by: counts\n"""\n' + SOUND.split("\n", 1)[1].replace("line_7 = 7\n", "")
@@ -53,10 +54,10 @@ def test_a_patch_that_no_longer_applies_says_what_to_do(known):
     course("counting", "--to-patch", "forgets")
     sound = known / "correct/plain.py"
     sound.write_text(SOUND.replace("line_6 = 6", "line_6 = 60"))
-    with pytest.raises(PatchError, match=r"no longer applies to correct/plain\.py.*--to-patch forgets"):
+    with pytest.raises(CourseError, match=r"no longer applies to correct/plain\.py.*--to-patch forgets"):
         whole_program(known / "faulty/forgets.patch")
     sound.unlink()
-    with pytest.raises(PatchError, match="the line --- must name the correct submission"):
+    with pytest.raises(CourseError, match="the line --- must name the correct submission"):
         whole_program(known / "faulty/forgets.patch")
 
 

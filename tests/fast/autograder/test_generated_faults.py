@@ -16,12 +16,12 @@ from autograder.classroom.audit.generated.first_look import Judged, as_fault, fi
 from autograder.classroom.audit.generated.mistakes import OPERATORS
 from autograder.classroom.audit.generated.pattern import filled, match, parsed
 from autograder.classroom.audit.generated.run import equivalents, figures, is_one_of, selected, survivors
-from autograder.classroom.audit.known_submission import HeaderError
 from autograder.classroom.audit.run import AuditedRun
 from autograder.engine.exercise import load_exercise
 from autograder.engine.judging import verdict_on
 from autograder.engine.verdict import CheckVerdict, Grade
 from course_cli.app import app
+from ros_runtime.course_error import CourseError
 
 mutants_of_exercise = cache(mutant_module.mutants_of_exercise)
 
@@ -227,7 +227,7 @@ def test_equivalent_needs_a_reason(tmp_path, monkeypatch):
     assert equivalents("walk_to") == {"misses_a_cancel.* *": "never reached"}
     for line in ("misses_a_cancel.* *", "misses_a_cancel.* # never reached"):
         (known / "equivalent.txt").write_text(f"{line}\n")
-        with pytest.raises(HeaderError, match=r"line 1: expected .* why"):
+        with pytest.raises(CourseError, match=r"line 1: expected .* why"):
             equivalents("walk_to")
 
 

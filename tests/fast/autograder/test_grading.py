@@ -13,12 +13,12 @@ from autograder.authoring.failure import CannotBeJudged, expect
 from autograder.engine import grading
 from autograder.engine.arena_run import NotGraded
 from autograder.engine.exercise import Exercise
-from autograder.engine.path_exposure import HiddenChecksRefused
 from autograder.engine.stop import Stop, Stopped
 from autograder.engine.submission import Submission
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
 from records import robot
+from ros_runtime.course_error import CommandFailed
 
 ISOLATED = Isolation(Kind.NAMESPACES, "given")
 SUBMISSION = Submission("battery_service", "ada", {"battery_service.py": ""})
@@ -40,7 +40,7 @@ def transcript(scenario, *, lag=0.0, mark=None, scale=5.0):
 
 
 def exercise(*checks):
-    return Exercise("anything", Path("anything"), checks, False)
+    return Exercise("anything", Path("anything"), checks)
 
 
 @pytest.fixture
@@ -253,7 +253,7 @@ def test_hidden_checks_are_refused_without_isolation(monkeypatch):
         """Secret"""
 
     ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
-    with pytest.raises(HiddenChecksRefused, match="no namespaces here"):
+    with pytest.raises(CommandFailed, match="no namespaces here"):
         graded(exercise(replace(secret, hidden=True)), isolation=Isolation(Kind.NONE, "no namespaces here"))
     assert ran == []
 
@@ -265,7 +265,7 @@ def test_hidden_checks_are_refused_where_a_sandbox_would_show_them(monkeypatch):
 
     ran = arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
     shown = replace(exercise(replace(secret, hidden=True)), folder=Path(sys.prefix, "share/course/secrets"))
-    with pytest.raises(HiddenChecksRefused, match=r"secrets lies in .*, which students' programs can read"):
+    with pytest.raises(CommandFailed, match=r"secrets lies in .*, which students' programs can read"):
         graded(shown)
     assert ran == []
 

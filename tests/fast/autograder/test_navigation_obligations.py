@@ -74,9 +74,8 @@ def test_the_path_is_what_was_walked_however_the_goal_ends():
         with pytest.raises(Failure, match="distance_traveled"):
             model.measures_its_path.require(run_of(*goal(), ended(12.0, traveled=traveled)).goal("go"))
     canceled = ended(12.0, status=GoalStatus.CANCELED, traveled=0.5)
-    assert model.measures_its_path.require(
-        run_of(*goal(), canceled).goal("go")
-    )  # the last part of the path may not be counted
+    # the last part of the path may not be counted
+    assert model.measures_its_path.require(run_of(*goal(), canceled).goal("go"))
 
 
 def test_progress_and_recoveries_are_of_this_goal():

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 PROJECT = Path(__file__).parents[3]
-SAYING = ("CannotBeJudged", "NotGraded", "NoOccasion", "unseen", "not_shown", "held_up", "not_graded")
+SAYING = ("CannotBeJudged", "NotGraded", "NoOccasion", "unseen", "not_shown", "held_up")
 
 # The record lacks an event of the grader, because the program exited, was killed, or delayed the robot.
 LEAVES = "arena/autograder/test_evidence.py::test_a_program_that_leaves_at_any_moment_is_judged"
@@ -58,7 +58,7 @@ PLACES = {
     ),
     HOLDS_UP: (f"{ENGINE}/completeness.py _require_simulated_time require_whole",),
     LATE: (f"{ENGINE}/completeness.py _require_effects",),
-    FLOODS: (f"{ENGINE}/bounds.py _require_nothing_dropped",),
+    FLOODS: (f"{ENGINE}/completeness.py _require_nothing_dropped",),
     NEVER_SHOWS: (
         f"{AUTHORING}/diagnosis/missing.py not_shown",
         f"{AUTHORING}/walking/client_run.py started",
@@ -86,7 +86,8 @@ def said_in(node: ast.AST, function: str = "") -> Iterator[str]:
     for child in ast.iter_child_nodes(node):
         if isinstance(child, ast.Call):
             called = getattr(child.func, "id", getattr(child.func, "attr", ""))
-            if called in SAYING:
+            gives_reason = called == "Grade" and any(each.arg == "reason" for each in child.keywords)
+            if called in SAYING or gives_reason:
                 yield function
         yield from said_in(child, child.name if isinstance(child, ast.FunctionDef) else function)
 

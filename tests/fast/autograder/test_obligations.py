@@ -80,9 +80,8 @@ def test_a_submission_for_which_no_obligation_applies_fails(monkeypatch):
     grade = grading.grade(SUBMISSION, exercise(check_on(ASK)), ONE_JOB)
     assert statuses(grade) == {"prints": "failed"}
     assert grade.checks[0].expected == "an answer from which this can be judged: It prints something good"
-    assert (
-        len(ran) == grading.MOST_ATTEMPTS["error"]
-    )  # each at a lower scale, because the machine may be the cause
+    # each at a lower scale, because the machine may be the cause
+    assert len(ran) == grading.MOST_ATTEMPTS["error"]
 
 
 def test_an_obligation_that_applies_on_a_slower_clock_is_enough(monkeypatch):

@@ -19,7 +19,7 @@ from ros_runtime.record.event import to_line
 
 SCENARIO = Scenario("ask_once")
 RUN = ArenaRun(
-    Exercise("battery_service", exercises_folder() / "battery_service", (), False),
+    Exercise("battery_service", exercises_folder() / "battery_service", ()),
     {"battery_service.py": b""},
     SCENARIO,
 )

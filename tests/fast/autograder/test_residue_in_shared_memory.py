@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from autograder.classroom.audit.leftovers import leftovers
+from leftovers import leftovers
 
 SHARED_MEMORY = Path("/dev/shm")
 MAPS = """

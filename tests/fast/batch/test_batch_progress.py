@@ -8,8 +8,7 @@ import pytest
 from rich.console import Console
 
 from autograder.classroom.batch.collection import Work
-from autograder.classroom.batch.effort import Effort
-from autograder.classroom.batch.job import GradingJob, Outcome
+from autograder.classroom.batch.job import Effort, GradingJob, Outcome
 from autograder.classroom.batch.runner import Graded
 from autograder.classroom.class_grading.progress import (
     MAX_LISTED_JOBS,

@@ -10,7 +10,7 @@ import pytest
 
 from autograder.classroom.batch.batch_record import BATCH, BatchRecord, merged_record, read_batch, write_batch
 from autograder.classroom.batch.collection import Work
-from autograder.classroom.batch.effort import Effort
+from autograder.classroom.batch.job import Effort
 from autograder.classroom.batch.runner import Graded
 from autograder.classroom.batch.version import checks_version
 from autograder.engine.exercise import exercises_folder

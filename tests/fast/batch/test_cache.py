@@ -6,7 +6,7 @@ import pytest
 
 from autograder.classroom.batch import version as module
 from autograder.classroom.batch.cache import CachedGrade, GradeCache
-from autograder.classroom.batch.effort import Effort
+from autograder.classroom.batch.job import Effort
 from autograder.classroom.batch.version import checks_version
 from autograder.engine.exercise import load_exercise
 from autograder.engine.submission import Submission

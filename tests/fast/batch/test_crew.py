@@ -11,7 +11,6 @@ from pathlib import Path
 
 import pytest
 
-from autograder.classroom.batch.grades_without_run import not_graded
 from autograder.classroom.batch.job import GradingJob, Outcome
 from autograder.classroom.batch.worker_pool import WorkerPool, Workers, threads
 from autograder.engine.verdict import CheckVerdict, Grade
@@ -81,7 +80,9 @@ def test_an_ungraded_job_is_repeated_alone_at_the_end() -> None:
         tries[job.student] += 1
         beside[job.student] = len(running) - 1
         busy = job.student == "always" or (job.student == "at first" and tries[job.student] == 1)
-        grade = not_graded(job.exercise, job.student, "", "the machine was too busy") if busy else passes(job)
+        grade = (
+            Grade(job.exercise, job.student, "", reason="the machine was too busy") if busy else passes(job)
+        )
         running.remove(job.student)
         return Outcome(grade, retry_may_succeed=busy)
 
@@ -99,7 +100,7 @@ def test_a_job_that_is_ungraded_for_a_permanent_reason_is_not_repeated() -> None
 
     def without_isolation(job: GradingJob) -> Outcome:
         tries.append(job.student)
-        return Outcome(not_graded(job.exercise, job.student, "", "the worker has no isolation"))
+        return Outcome(Grade(job.exercise, job.student, "", reason="the worker has no isolation"))
 
     ((_, status, _),) = outcomes(WorkerPool(threads(1), without_isolation), ["anna"])
     assert status == "not graded"

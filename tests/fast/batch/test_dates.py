@@ -9,10 +9,11 @@ import pytest
 from nbgrader.api import Gradebook
 from typer.testing import CliRunner
 
-from autograder.classroom.dates import Deadlines, UnusableDates, read_deadlines
+from autograder.classroom.dates import Deadlines, read_deadlines
 from autograder.engine.exercise import exercises_folder
 from autograder.engine.verdict import CheckVerdict, Grade
 from course_cli.app import app
+from ros_runtime.course_error import CourseError
 
 DUE = "due: {walk_to: 2026-12-04 18:00, walk_client: 2026-12-04}\n"
 RULE = "late: {percent_per_day: 10, at_most_percent: 40, grace_minutes: 15}\n"
@@ -100,27 +101,42 @@ def test_the_instructor_reads_who_is_late_whose_time_is_unknown_and_who_is_missi
     ],
 )
 def test_a_wrong_entry_is_named_with_what_is_expected(tmp_path: Path, text: str, message: str) -> None:
-    with pytest.raises(UnusableDates, match=message):
+    with pytest.raises(CourseError, match=message):
         deadlines(tmp_path, text)
 
 
 def test_a_class_without_dates_has_none(tmp_path: Path) -> None:
     assert read_deadlines(None, tmp_path / "submitted") is None
-    with pytest.raises(UnusableDates, match="cannot be read"):
+    with pytest.raises(CourseError, match="cannot be read"):
         read_deadlines(tmp_path / "missing.yaml", tmp_path)
 
 
-def test_gradebook_and_pages_follow_the_dates_also_when_these_change(tmp_path: Path) -> None:
-    folder, out = tmp_path / "submitted/ada/patterns", tmp_path / "graded"
-    folder.mkdir(parents=True)
+@pytest.mark.parametrize("second", [[], ["--student", "ben"]])
+def test_gradebook_and_pages_follow_the_dates_also_when_these_change(
+    tmp_path: Path, second: list[str]
+) -> None:
+    """Also those of a student who is not graded again."""
+    out = tmp_path / "graded"
     correct = exercises_folder() / "patterns/known/correct/as_a_node.py"
-    shutil.copy(correct, folder / "patterns.py")
-    (folder / "timestamp.txt").write_text("2026-12-05 12:00:00 UTC\n")
-    for percent, score in ((10, 11.7), (20, 10.4)):
+    for student in ("ada", "ben"):
+        folder = tmp_path / "submitted" / student / "patterns"
+        folder.mkdir(parents=True)
+        shutil.copy(correct, folder / "patterns.py")
+        (folder / "timestamp.txt").write_text("2026-12-05 12:00:00 UTC\n")
+    for percent, score, options in ((10, 11.7, []), (20, 10.4, second)):
         (tmp_path / "dates.yaml").write_text(
             f"due: {{patterns: 2026-12-04}}\nlate: {{percent_per_day: {percent}}}\n"
         )
-        command = ["grade", str(tmp_path / "submitted"), "--out", str(out), "--jobs", "1", "--resume"]
+        command = [
+            "grade",
+            str(tmp_path / "submitted"),
+            "--out",
+            str(out),
+            "--jobs",
+            "1",
+            "--resume",
+            *options,
+        ]
         ran = CliRunner().invoke(app("grade"), command)
         assert ran.exit_code == 0, ran.output
 

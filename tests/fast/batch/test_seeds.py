@@ -9,7 +9,7 @@ import pytest
 
 from autograder.authoring.checks import Check, Scenario
 from autograder.classroom.batch.batch_record import BatchRecord
-from autograder.classroom.batch.request import BatchRequest, UnusableRequest
+from autograder.classroom.batch.request import BatchRequest
 from autograder.classroom.batch.seeds import Seeds
 from autograder.classroom.batch.selection import require_seed
 from autograder.classroom.batch.shards import Shard
@@ -21,6 +21,7 @@ from autograder.engine.submission import Submission
 from autograder.engine.verdict import Grade
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.availability import Isolation
+from ros_runtime.course_error import CourseError
 from student_work import work_at
 
 NEW = BatchRequest(Path("submitted"), Path("graded"))
@@ -77,7 +78,7 @@ def test_with_watch_a_resubmission_is_graded_with_other_inputs():
     "options", [{"students": ("anna",)}, {"watch": True}, {"json_file": Path("all.json")}]
 )
 def test_a_shard_is_a_part_of_the_whole_class(options):
-    with pytest.raises(UnusableRequest, match=r"--shard (grades )?a part"):
+    with pytest.raises(CourseError, match=r"--shard (grades )?a part"):
         BatchRequest(Path("submitted"), Path("graded"), shard=Shard(1, 2), **options)
 
 
@@ -95,7 +96,7 @@ def test_inputs_of_visible_checks_have_the_same_seed_in_every_batch(tmp_path, mo
     ]
     monkeypatch.setattr(grading, "run_in_arena", look)
     monkeypatch.setattr(grading, "require_hidden", lambda paths: None)
-    exercise = Exercise("made_up", tmp_path, checks, True)
+    exercise = Exercise("made_up", tmp_path, checks)
     isolation = Isolation(Kind.NAMESPACES, "as a test says")
     options = grading.GradingOptions(seed=77, isolation=isolation)
     grading.grade(Submission("made_up", "anna", {}), exercise, options)

@@ -7,8 +7,9 @@ import pytest
 from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.records import read_grades, write_grades
 from autograder.classroom.batch.seeds import Seeds
-from autograder.classroom.batch.selection import NothingSelected, OtherSeed, require_seed, select, with_others
+from autograder.classroom.batch.selection import require_seed, select, with_others
 from autograder.engine.verdict import CheckVerdict, Grade
+from ros_runtime.course_error import CourseError
 
 WORKS = [Work(student, exercise) for student in ("anna", "bert") for exercise in ("patterns", "walk_to")]
 
@@ -33,11 +34,11 @@ def test_names_select_students_and_exercises(students, exercises, expected):
 
 
 def test_a_name_without_a_submission_is_reported_with_the_known_names():
-    with pytest.raises(NothingSelected, match=r"--student carl: .*anna, bert"):
+    with pytest.raises(CourseError, match=r"--student carl: .*anna, bert"):
         select(WORKS, ["carl"], [])
-    with pytest.raises(NothingSelected, match=r"--exercise walk: .*patterns, walk_to"):
+    with pytest.raises(CourseError, match=r"--exercise walk: .*patterns, walk_to"):
         select(WORKS, [], ["walk"])
-    with pytest.raises(NothingSelected, match="anna handed in none of patterns"):
+    with pytest.raises(CourseError, match="anna handed in none of patterns"):
         select(WORKS[1:3], ["anna"], ["patterns"])
 
 
@@ -51,7 +52,7 @@ def test_the_selected_row_is_replaced_and_the_others_stay(tmp_path):
 
 def test_grades_of_different_seeds_are_not_mixed():
     require_seed([grade("anna", "patterns", seed=3)], Seeds(3))
-    with pytest.raises(OtherSeed, match=r"with seed 3, .* seed 0;"):
+    with pytest.raises(CourseError, match=r"with seed 3, .* seed 0;"):
         require_seed([grade("anna", "patterns", seed=3)], Seeds(0))
 
 

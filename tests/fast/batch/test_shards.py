@@ -9,8 +9,9 @@ import pytest
 from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.runner import Graded
 from autograder.classroom.batch.seeds import ONE_FOR_ALL, Seeds
-from autograder.classroom.batch.shards import SHARD, CannotMerge, Shard, merge_shards, write_shard
+from autograder.classroom.batch.shards import SHARD, Shard, merge_shards, write_shard
 from autograder.engine.verdict import CheckVerdict, Grade
+from ros_runtime.course_error import CourseError
 
 WORKS = [
     Work(f"student{number}", exercise, (), "2026-03-01 12:00:00 UTC")
@@ -43,7 +44,7 @@ def test_each_submission_is_in_one_shard_whatever_the_order(of):
     "text", ["0/3", "4/3", "1", "1/0", "a/b", "-1/3", "1/3/5", "1/1000000000", "9" * 5000 + "/9"]
 )
 def test_an_invalid_shard_is_refused(text):
-    with pytest.raises(ValueError, match="expected K/N"):
+    with pytest.raises(CourseError, match="expected K/N"):
         Shard.parse(text)
 
 
@@ -75,7 +76,7 @@ def test_a_merge_says_which_shard_and_whose_work_is_missing(tmp_path):
 def test_shards_of_different_batches_are_refused(tmp_path, change, message):
     make(tmp_path / "a", 1)
     make(tmp_path / "b", **change)
-    with pytest.raises(CannotMerge, match=message):
+    with pytest.raises(CourseError, match=message):
         merge_shards([tmp_path / "a", tmp_path / "b"])
 
 
@@ -95,7 +96,7 @@ def test_other_checks_are_refused_and_so_is_a_folder_without_a_shard(tmp_path):
     make(tmp_path / "a", 1)
     record = json.loads((make(tmp_path / "b", 2) / SHARD).read_text())
     (tmp_path / "b" / SHARD).write_text(json.dumps(record | {"versions": {"walk_to": "other"}}))
-    with pytest.raises(CannotMerge, match="different versions: bring all clones to one commit"):
+    with pytest.raises(CourseError, match="different versions: bring all clones to one commit"):
         merge_shards([tmp_path / "a", tmp_path / "b"])
-    with pytest.raises(CannotMerge, match="holds no finished shard"):
+    with pytest.raises(CourseError, match="holds no finished shard"):
         merge_shards([tmp_path / "a", tmp_path / "none"])

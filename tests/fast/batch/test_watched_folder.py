@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from autograder.classroom.batch.folder_lock import FolderInUse
 from autograder.classroom.batch.watched_folder import WatchedFolder, only_watcher
+from ros_runtime.course_error import CommandFailed
 
 
 @pytest.fixture
@@ -97,7 +97,7 @@ def test_a_folder_that_is_empty_or_has_gone_has_no_submissions(tmp_path):
 
 def test_a_second_watcher_is_refused_until_the_first_has_gone(tmp_path):
     with only_watcher(tmp_path):
-        with pytest.raises(FolderInUse, match="--watch"), only_watcher(tmp_path):
+        with pytest.raises(CommandFailed, match="--watch"), only_watcher(tmp_path):
             pass
         assert list(tmp_path.iterdir()) == []
     with only_watcher(tmp_path):

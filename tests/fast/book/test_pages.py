@@ -8,8 +8,7 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from autograder.classroom.book.chapter_run import answered
-from autograder.classroom.book.kept_runs import KeptRuns
+from autograder.classroom.book.chapter_run import KeptRuns, answered
 from autograder.classroom.book.links import Links
 from autograder.classroom.book.reader_copy import HIDDEN_INPUT, reader_copy
 from autograder.classroom.book.still_widgets import STATE, VIEW, VIEW_CAPTION, still

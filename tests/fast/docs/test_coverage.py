@@ -9,9 +9,10 @@ from pathlib import Path
 import nbformat
 import pytest
 
-from autograder.classroom.audit.known_submission import HeaderError, known_submission
+from autograder.classroom.audit.known_submission import known_submission
 from autograder.engine.essay import load_essay
 from autograder.engine.exercise import essay_names, load_exercise
+from ros_runtime.course_error import CourseError
 
 ROOT = Path(__file__).resolve().parents[3]
 PAGE = (ROOT / "docs/coverage.md").read_text()
@@ -140,7 +141,7 @@ def test_a_misconception_is_seen_failing_and_is_caught_by_the_checks_that_its_su
     ],
 )
 def test_a_missing_proof_is_detected(proof: str) -> None:
-    with pytest.raises((AssertionError, HeaderError)):
+    with pytest.raises((AssertionError, CourseError)):
         require_proof(proof)
 
 

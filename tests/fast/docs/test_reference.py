@@ -110,47 +110,6 @@ def weeks() -> list[list[str]]:
     return [row for row in rows(DOCS / "for_instructors.md") if re.fullmatch(r"\d+(, \d+)?", row[0])]
 
 
-def hours_of_a_week() -> dict[str, float]:
-    """The hours of each week of that table, a chapter's with those of its exercises shared by its weeks."""
-    hours: dict[str, float] = {}
-    for week, _, minutes, exercises, *_ in weeks():
-        work = int(minutes) + sum(map(int, re.findall(r"\((\d+)\)", exercises)))
-        hours[week] = hours.get(week, 0.0) + work / 60 / len(week.split(","))
-    return hours
-
-
-def number(text: str) -> float:
-    """The number that people read in a text such as 5¼."""
-    return float(text.replace("¼", ".25").replace("½", ".5").replace("¾", ".75"))
-
-
-def hours_of_the_longest(chapters: str, exercises: str) -> float:
-    """The hours of the longest week of a shorter term: one chapter each, or two that are said to be together."""
-    chosen = set(re.findall(r"\w+", exercises))
-    plan = [re.findall(r"\d+[ab]?", one) for one in chapters.split(",")]
-    work = {
-        row[1].split()[0]: int(row[2])
-        + sum(int(minutes) for name, minutes in re.findall(r"(\w+) \((\d+)\)", row[3]) if name in chosen)
-        for row in weeks()
-    }
-    return max(sum(work[chapter] for chapter in week) for week in plan) / 60
-
-
-def test_the_hours_of_a_week_and_of_each_term_are_the_sums() -> None:
-    page = (DOCS / "for_instructors.md").read_text()
-    said = re.search(r"costs a student (\S+) to (\S+) hours", page)
-    assert said
-    hours = hours_of_a_week().values()
-    assert number(said[1]) == pytest.approx(min(hours), abs=0.2)
-    assert number(said[2]) == pytest.approx(max(hours), abs=0.125)
-    terms = [row for row in rows(DOCS / "for_instructors.md") if row[0].endswith(" weeks")]
-    assert len(terms) == 3
-    for term, what, longest in terms:
-        chapters, _, exercises = what.removeprefix("chapters ").partition(" with ")
-        wanted = max(hours) if what.startswith("all") else hours_of_the_longest(chapters, exercises)
-        assert number(longest) == pytest.approx(wanted, abs=0.125), term
-
-
 def test_instructors_read_the_same_minutes_as_students() -> None:
     students = minutes_of_the_start_page()
     titles = {re.sub(r"[\[\]]|\(.*?\)", "", row[0]): row[1] for row in rows(ROOT / "chapters/README.md")}
@@ -189,9 +148,8 @@ def test_a_notebook_that_says_how_long_it_takes_says_what_the_start_page_says() 
 
 @pytest.mark.parametrize("page", sorted(DOCS.glob("*.md")), ids=lambda page: page.stem)
 def test_the_links_of_a_page_lead_somewhere(page: Path) -> None:
-    base = (
-        ROOT if page.stem == "for_students" else page.parent
-    )  # it becomes the README of the students' archive
+    # it becomes the README of the students' archive
+    base = ROOT if page.stem == "for_students" else page.parent
     links = re.findall(r"\]\(([^)\s#]+)", page.read_text())
     assert [link for link in links if "://" not in link and not (base / link).exists()] == []
 

@@ -11,8 +11,8 @@ import pytest
 pytest.importorskip("rclpy")
 
 from autograder.classroom.batch.collection import collect
-from autograder.classroom.batch.records import GRADES, UnusableRecord, read_grades
-from autograder.classroom.batch.shards import SHARD, CannotMerge, merge_shards
+from autograder.classroom.batch.records import GRADES, read_grades
+from autograder.classroom.batch.shards import SHARD, merge_shards
 from autograder.classroom.pages.drawings import Drawings
 from autograder.engine.arena_run import NotGraded, read_events
 from autograder.engine.submission import UnusableSubmission
@@ -20,6 +20,7 @@ from autograder.engine.verdict import Grade
 from fuzz.fuzzer import LONG, SUITE
 from fuzz.readers import records
 from fuzz.readers.all import CHANNELS, READERS
+from ros_runtime.course_error import CourseError
 from student_work import work_at
 
 IN_ARENAS = ("answers-judged",)  # reads all recorded runs, which takes seconds; so it is in tests/arena/fuzz
@@ -103,7 +104,7 @@ GRADE = records._GRADE.to_json()
 @pytest.mark.parametrize("content", ["", "{", "7", "[null]", json.dumps([GRADE | {"checks": None}])])
 def test_a_damaged_file_of_grades_says_what_to_do(tmp_path: Path, content: str) -> None:
     (tmp_path / GRADES).write_text(content)
-    with pytest.raises(UnusableRecord, match="restore the file of the last batch"):
+    with pytest.raises(CourseError, match="restore the file of the last batch"):
         read_grades(tmp_path / GRADES)
 
 
@@ -120,7 +121,7 @@ def test_no_grade_has_impossible_points(points: float) -> None:
 def test_a_damaged_shard_is_refused(tmp_path: Path, change: dict[str, object]) -> None:
     record = json.loads(records._SHARDS[0]) | change
     (tmp_path / SHARD).write_text(json.dumps(record))
-    with pytest.raises(CannotMerge, match=r"(holds no finished shard|contains an invalid grade)"):
+    with pytest.raises(CourseError, match=r"(holds no finished shard|contains an invalid grade)"):
         merge_shards([tmp_path])
 
 
@@ -135,7 +136,7 @@ def test_a_shard_with_an_impossible_grade_is_refused(tmp_path: Path) -> None:
     record = json.loads(records._SHARDS[0])
     record["graded"][0]["grade"]["checks"][0]["points"] = 100
     (tmp_path / SHARD).write_text(json.dumps(record))
-    with pytest.raises(CannotMerge, match="grade this shard again"):
+    with pytest.raises(CourseError, match="grade this shard again"):
         merge_shards([tmp_path])
 
 

@@ -9,7 +9,7 @@ import nbformat
 import pytest
 
 import lab
-from lab.learning import progress
+from lab.learning import progress_table as progress
 from lab.learning.contents import read_contents
 from lab.learning.gap import read_gaps
 from lab.learning.prediction import predict

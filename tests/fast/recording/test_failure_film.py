@@ -67,7 +67,7 @@ def test_the_same_seconds_are_filmed_once(fall: Transcript) -> None:
 def test_no_more_than_the_first_failures_are_filmed(
     fall: Transcript, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(failure_film, "film", lambda recording, span, file: file.write_bytes(b"film"))
+    monkeypatch.setattr(failure_film, "film", lambda recording, span, file: file.write(b"film"))
     runs = [replace(fall) for _ in range(MOST_FILMS + 1)]
     of_one = films()
     made = [of_one.of(judged(stays_up, run), [run]) for run in runs]

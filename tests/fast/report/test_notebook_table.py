@@ -11,7 +11,7 @@ from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import load_exercise
 from autograder.engine.verdict import CheckVerdict
 from autograder.report import notebook_table as module
-from autograder.report.notebook_table import NotebookTable, with_links
+from autograder.report.notebook_table import NotebookTable, next_step
 
 CHECKS = load_exercise("battery_service", hidden=False).checks
 
@@ -64,7 +64,9 @@ def test_a_film_is_folded_below_its_check_and_has_an_alternative_text(shown: lis
 
 
 def test_a_lesson_is_a_link_to_its_heading() -> None:
-    text = "Read chapters/02_services.ipynb, “Pitfall: no return”."
-    href = "../../chapters/02_services.ipynb#Pitfall:-no-return"
-    assert f'<a href="{href}">chapters/02_services.ipynb, “Pitfall: no return”</a>.' in with_links(text)
-    assert "&lt;script&gt;" in with_links("<script>")
+    title = "chapters/02_services.ipynb, “Break it: ask before there is an answer”"
+    failed = CheckVerdict(
+        "a", "A", "failed", 0, 1, help=f"<script> Read {title}.", lesson="02_services#m9-why"
+    )
+    href = "../../chapters/02_services.ipynb#Break-it:-ask-before-there-is-an-answer"
+    assert next_step(failed) == f'&lt;script&gt; Read <a href="{href}">{title}</a>.'

@@ -21,8 +21,8 @@ from autograder.recording.recorder import Recorder
 from autograder.recording.replay import film as film_module
 from autograder.work_page import write_work_page
 from course_cli.app import app
-from course_cli.ending import UNUSABLE
 from falls import FALL, accepts, exercise, judged, simulated, stays_up, walk
+from ros_runtime.course_error import UNUSABLE
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 PROGRAM = "import rclpy  # </pre><script>document.title = 'run'</script>\n"

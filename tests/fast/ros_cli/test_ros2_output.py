@@ -18,8 +18,8 @@ from rclpy.parameter import get_parameter_value
 from ros_cli.errors import CommandError, unknown
 from ros_cli.verbs.interface import definition
 from ros_cli.verbs.param import as_file, description_lines, value_line
+from ros_cli.verbs.topic import ArrivalRate
 from ros_cli.verbs.topic_echo import as_text, select
-from ros_cli.verbs.topic_hz import ArrivalRate
 from ros_cli.verbs.topic_pub import ticks
 
 

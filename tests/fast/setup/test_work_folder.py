@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from course_cli import work_folder as module
-from course_cli.work_folder import work_folder
+from course_cli.commands import lab as module
+from course_cli.commands.lab import work_folder
 from ros_runtime.project import PROJECT, WORK_VARIABLE
 
 

@@ -8,12 +8,12 @@ from functools import cache
 from pathlib import Path
 
 from autograder.classroom.audit.known_submission import known_submission
-from autograder.classroom.audit.leftovers import leftovers
 from autograder.engine.exercise import Exercise, load_exercise
 from autograder.engine.grading import GradingOptions, grade
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import Grade
 from fuzz.arena.targets import TARGETS, Target
+from leftovers import leftovers
 
 PROGRAM = Path(__file__).with_name("wild_program.py")
 MESSAGES = Path(__file__).with_name("wild_messages.py")

@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 from autograder.classroom.batch.batch_record import BATCH, BatchRecord, Row, read_batch
 from autograder.classroom.batch.cache import CachedGrade, GradeCache
 from autograder.classroom.batch.collection import Work
-from autograder.classroom.batch.effort import Effort
-from autograder.classroom.batch.records import GRADES, UnusableRecord, read_grades
+from autograder.classroom.batch.job import Effort
+from autograder.classroom.batch.records import GRADES, read_grades
 from autograder.classroom.batch.runner import Graded
 from autograder.classroom.batch.seeds import Seeds
-from autograder.classroom.batch.shards import SHARD, CannotMerge, Shard, merge_shards, write_shard
+from autograder.classroom.batch.shards import SHARD, Shard, merge_shards, write_shard
 from autograder.classroom.pages.drawings import Drawings
 from autograder.engine.exercise import load_exercise
 from autograder.engine.submission import Submission
@@ -28,6 +28,7 @@ from autograder.isolation.availability import Isolation
 from autograder.report.table import class_table
 from fuzz import strategies as odd
 from fuzz.fuzzer import Fuzzer
+from ros_runtime.course_error import CourseError
 
 EXERCISE = "battery_service"
 ISOLATION = Isolation(Kind.NAMESPACES, "")
@@ -41,7 +42,7 @@ def require_grades_or_reason(data: bytes) -> None:
         path.write_bytes(data)
         try:
             grades = read_grades(path)
-        except UnusableRecord as error:
+        except CourseError as error:
             assert len(str(error)) < LONGEST_REASON
             return
     for grade in grades:
@@ -58,7 +59,7 @@ def require_merged_or_reason(data: bytes) -> None:
             (place / SHARD).write_bytes(content)
         try:
             merged = merge_shards([first, second])
-        except CannotMerge as error:
+        except CourseError as error:
             assert len(str(error)) < LONGEST_REASON
             return
     for result in merged.results:

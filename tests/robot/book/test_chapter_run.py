@@ -11,10 +11,11 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
-from autograder.classroom.book.chapter_run import ChapterFailed, execute, processes_in
+from autograder.classroom.book.chapter_run import execute, processes_in
 from autograder.classroom.book.links import Links
 from autograder.classroom.book.reader_copy import reader_copy
 from autograder.classroom.book.still_widgets import VIEW, VIEW_CAPTION
+from ros_runtime.course_error import CommandFailed
 
 
 def write_chapter(file: Path, *sources: str) -> nbformat.NotebookNode:
@@ -61,7 +62,7 @@ def test_a_chapter_has_its_outputs_and_the_last_picture_of_the_live_view(tmp_pat
 )
 def test_a_chapter_that_fails_names_the_cell(tmp_path: Path, source: str, said: str) -> None:
     write_chapter(tmp_path / "01_a.ipynb", "print(1)", source, "print(2)")
-    with pytest.raises(ChapterFailed) as failed:
+    with pytest.raises(CommandFailed) as failed:
         execute(tmp_path / "01_a.ipynb", tmp_path)
     assert str(failed.value) == said
 

@@ -9,7 +9,8 @@ from urllib.parse import unquote, urldefrag
 
 import pytest
 
-from autograder.classroom.book.site import BookFailed, make_site, parts_of
+from autograder.classroom.book.site import make_site, parts_of
+from ros_runtime.course_error import CommandFailed
 from ros_runtime.project import PROJECT
 
 
@@ -93,5 +94,5 @@ def test_the_search_finds_words_of_chapters_and_of_the_glossary(site: Path) -> N
 def test_warnings_of_sphinx_are_reported(tmp_path: Path) -> None:
     (tmp_path / "docs").mkdir()
     (tmp_path / "docs/glossary.md").write_text("# Glossary\n\n![gone](images/gone.png)\n")
-    with pytest.raises(BookFailed, match=r"(?s)glossary\.md:3.*gone\.png"):
+    with pytest.raises(CommandFailed, match=r"(?s)glossary\.md:3.*gone\.png"):
         make_site(tmp_path / "site", tmp_path / "work", {}, project=tmp_path)

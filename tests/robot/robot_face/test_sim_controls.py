@@ -97,9 +97,8 @@ def test_a_joint_is_held_until_another_name_or_an_empty_one(robot):
     robot.publish(String(data="l_elbow_2"), "/sim/hold_joint")  # a joint that does not exist
     robot.publish(String(data="l_elbow"), "/sim/hold_joint")
     bend("l_elbow", -1.5)
-    assert (
-        min(positions_of("l_elbow", 40)) > -1.0
-    )  # in two seconds; on a busy machine the command may come before the hold
+    # in two seconds; on a busy machine the command may come before the hold
+    assert min(positions_of("l_elbow", 40)) > -1.0
     robot.publish(String(data="r_elbow"), "/sim/hold_joint")
     assert positions_of("l_elbow", 40)[-1] == pytest.approx(-1.5, abs=0.02)
     bend("r_elbow", -1.5)

@@ -14,9 +14,10 @@ from rich.text import Text
 from autograder.classroom.audit.audit_record import AuditRecord
 from autograder.classroom.audit.generated.first_look import Judged, as_fault, first_look
 from autograder.classroom.audit.generated.mutant import Mutant, mutants_of_exercise
-from autograder.classroom.audit.known_submission import KNOWN, HeaderError
+from autograder.classroom.audit.known_submission import KNOWN
 from autograder.classroom.audit.run import AuditedRun, audit
 from autograder.engine.exercise import Exercise, exercises_folder
+from ros_runtime.course_error import CourseError
 
 GOAL_PERCENT = 98  # of the graded mutants should lose points
 VISIBLE_GOAL_PERCENT = 75  # of the graded mutants should lose points in visible checks
@@ -64,11 +65,11 @@ def audit_generated(
 
 
 def mutant_named(exercise: str, name: str) -> Mutant:
-    """Return the mutant of this name; raises `HeaderError` if there is none."""
+    """Return the mutant of this name; raises `CourseError` if there is none."""
     for mutant in mutants_of_exercise(exercise):
         if mutant.name == name:
             return mutant
-    raise HeaderError(
+    raise CourseError(
         f"there is no mutant {name} of {exercise}; ./course audit {exercise} --generated prints the names"
     )
 
@@ -137,7 +138,7 @@ def default_number(exercise: Exercise) -> int:
 def equivalents(exercise: str) -> dict[str, str]:
     """Return the reasons why mutants are equivalent, by (pattern of names, pattern of sentences).
 
-    Raises `HeaderError` for a line that is not “NAME SENTENCE # reason”.
+    Raises `CourseError` for a line that is not “NAME SENTENCE # reason”.
     """
     path = exercises_folder() / exercise / KNOWN / EQUIVALENT
     lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
@@ -146,7 +147,7 @@ def equivalents(exercise: str) -> dict[str, str]:
         patterns, _, reason = (part.strip() for part in line.partition(" # "))
         if line.strip() and not line.startswith("#"):
             if not reason or " " not in patterns:
-                raise HeaderError(
+                raise CourseError(
                     f"{path}, line {number}: expected “<pattern of names> <pattern of sentences> # why these are no "
                     "mistakes”"
                 )
