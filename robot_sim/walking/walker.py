@@ -43,6 +43,16 @@ class Walker:
         return self.stands and self.gait.is_idle
 
     @property
+    def steps(self) -> int:
+        """Touchdowns so far."""
+        return self.gait.steps
+
+    @property
+    def goal_reached(self) -> bool:
+        """Whether the last Goal was reached and no command has come since."""
+        return self.gait.goal_reached
+
+    @property
     def height(self) -> float:
         """Height of the pelvis above the floor that is held, m."""
         return self._whole_body.height
