@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from typing import Protocol
 
 import mujoco
 
@@ -19,7 +19,7 @@ class MissingParts(Exception):
     """Packages of an optional robot are not installed; the message is one line with the command that installs them."""
 
 
-class Body(Protocol):
+class Body(ABC):
     """A kind of robot. Its pelvis is base_link; its torso, feet, soles and sensors have the names of humanoid.xml.
 
     Attributes:
@@ -44,17 +44,21 @@ class Body(Protocol):
     fallen_height: float
     may_rest: bool
 
+    @abstractmethod
     def model(self, scene: str, shape: Callable[[mujoco.MjSpec], object]) -> mujoco.MjModel:
         """Compile the robot in a scene; `shape` is called with the model before."""
 
+    @abstractmethod
     def stance_height(self, model: mujoco.MjModel) -> float:
         """Return the height (m) of the pelvis above the floor while it stands."""
 
+    @abstractmethod
     def take_stance(
         self, model: mujoco.MjModel, data: mujoco.MjData, x: float, y: float, yaw: float, height: float
     ) -> None:
         """Reset the state to standing with the pelvis at (x, y, height) m, heading `yaw` rad."""
 
+    @abstractmethod
     def walker(self, model: mujoco.MjModel, data: mujoco.MjData) -> WalkingController:
         """Make the controller that starts from the present state."""
 

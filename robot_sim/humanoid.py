@@ -259,7 +259,8 @@ class Humanoid:
     def move_body(self, rate: float) -> None:
         """Crouch or rise at `rate` (m/s, upwards) until the next command; ignored while the motors are off.
 
-        The pelvis stays between the lowest crouch (0.45 m) and the stance (0.60 m). A crouching robot rises before it walks.
+        The pelvis stays between the lowest crouch, 0.45 m, and the 0.60 m of the stance. A crouching robot rises before
+        it walks. The G1 cannot crouch.
 
         Raises:
             ValueError: the rate is not finite.

@@ -8,6 +8,7 @@ from dataclasses import replace
 import mujoco
 
 from robot_sim.arms.joint_trajectory import MOVABLE
+from robot_sim.body import Body
 from robot_sim.model.build import build_model
 from robot_sim.model.dimensions import dimensions_of
 from robot_sim.model.joint_names import ACTUATED_JOINTS
@@ -21,7 +22,7 @@ from robot_sim.walking.walker_parameters import WalkerParameters
 from robot_sim.walking.walking_limits import WalkingLimits
 
 
-class HumanoidBody:
+class HumanoidBody(Body):
     """The robot of humanoid.xml, walked by a controller that plans footsteps."""
 
     name = "humanoid"

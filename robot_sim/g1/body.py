@@ -10,10 +10,9 @@ from pathlib import Path
 
 import mujoco
 
-from robot_sim.body import MissingParts
+from robot_sim.body import Body, MissingParts
 from robot_sim.g1.model import g1_model
 from robot_sim.g1.walker import STANCE, LearnedWalker, Policy
-from robot_sim.model.side import Side
 from robot_sim.walking.body_height import HeightLimits
 from robot_sim.walking.walking_limits import WalkingLimits
 from ros_runtime.project import PROJECT
@@ -26,7 +25,7 @@ PARTS = {  # each package that is needed, and the file that is read there
 STANCE_HEIGHT = 0.76  # m
 
 
-class G1Body:
+class G1Body(Body):
     """The Unitree G1 with 29 joints, all of which its walker moves: no arm, hand or crouch can be commanded.
 
     Raises:
@@ -36,7 +35,7 @@ class G1Body:
     name = "g1"
     scenes = ("flat",)
     movable = ()
-    hands: tuple[Side, ...] = ()
+    hands = ()
     limits = WalkingLimits(forward=0.45, backward=0.28, sideways=0.12, turn=0.6)
     heights = HeightLimits(lowest=STANCE_HEIGHT)
     fallen_height = 0.5

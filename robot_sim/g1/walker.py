@@ -14,6 +14,7 @@ from robot_sim.sensors.foot_sensor import FootSensor
 from robot_sim.walking.balance_gains import BalanceGains
 from robot_sim.walking.footsteps import Command, Goal
 from robot_sim.walking.planar import clamp
+from robot_sim.walking.walking_controller import WalkingController
 from ros_runtime.angles import wrap, yaw_of
 
 RATE = 50.0  # Hz, of the network
@@ -75,21 +76,18 @@ class Policy:
         return self._session.run(None, {self._input: observation[None].astype(np.float32)})[0][0]
 
 
-class LearnedWalker:
+class LearnedWalker(WalkingController):
     """The walking controller; around the network, a loop holds the heading, and a table corrects the velocity.
 
-    Attributes:
-        height: of the pelvis above the floor, m; the network does not take one, so that setting it has no effect.
-        steps: touchdowns so far.
-        goal_reached: always False, because it takes no Goal.
-        is_idle: always False, because the network always acts.
+    It takes no Goal, and setting the height of the pelvis has no effect. It is never idle: the network always acts.
     """
 
     goal_reached = is_idle = False
+    steps = 0
+    height = 0.0
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, policy: Policy, height: float) -> None:
         self.height = height
-        self.steps = 0
         self._data, self._policy = data, policy
         self._ticks_an_action = round(1.0 / RATE / model.opt.timestep)
         self._tick = 0

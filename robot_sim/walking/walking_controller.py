@@ -2,41 +2,57 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from abc import ABC, abstractmethod
 
 from robot_sim.walking.balance_gains import BalanceGains
 from robot_sim.walking.footsteps import Command
 
 
-class WalkingController(Protocol):
-    """What balances and walks a robot; a new one is made whenever the state of the simulation was replaced.
-
-    Attributes:
-        stands: both feet stand and no step is planned.
-        is_idle: so does the whole robot, without a command.
-        steps: touchdowns so far.
-        goal_reached: the last Goal was reached and no command has come since.
-        height: of the pelvis above the floor that is held, m.
-        gains: how stiffly the trunk is held upright; None if that cannot be set.
-    """
-
-    height: float
+class WalkingController(ABC):
+    """What balances and walks a robot; a new one is made whenever the state of the simulation was replaced."""
 
     @property
-    def stands(self) -> bool: ...  # noqa: D102
+    @abstractmethod
+    def stands(self) -> bool:
+        """Whether both feet stand and no step is planned."""
+
     @property
-    def is_idle(self) -> bool: ...  # noqa: D102
+    @abstractmethod
+    def is_idle(self) -> bool:
+        """Whether both feet stand without a command to walk, so that the robot may rest."""
+
     @property
-    def steps(self) -> int: ...  # noqa: D102
+    @abstractmethod
+    def steps(self) -> int:
+        """Touchdowns so far."""
+
     @property
-    def goal_reached(self) -> bool: ...  # noqa: D102
+    @abstractmethod
+    def goal_reached(self) -> bool:
+        """Whether the last Goal was reached and no command has come since."""
+
     @property
-    def gains(self) -> BalanceGains | None: ...  # noqa: D102
+    @abstractmethod
+    def height(self) -> float:
+        """Height of the pelvis above the floor that is held, m."""
+
+    @height.setter
+    @abstractmethod
+    def height(self, height: float) -> None: ...
+
+    @property
+    @abstractmethod
+    def gains(self) -> BalanceGains | None:
+        """How stiffly the trunk is held upright; None if that cannot be set."""
+
     @gains.setter
+    @abstractmethod
     def gains(self, gains: BalanceGains | None) -> None: ...
 
+    @abstractmethod
     def follow(self, command: Command) -> None:
         """Walk to a Goal or at a Velocity; None stops."""
 
+    @abstractmethod
     def tick(self, dt: float) -> None:
-        """Set the motors for the next `dt` (s); it is called between `mj_step1` and `mj_step2`."""
+        """Set the motors for the next `dt` (s); call it between `mj_step1` and `mj_step2`."""
