@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from autograder.authoring.checks import MAY_REST, Scenario
 from autograder.engine.exercise import Exercise
-from robot_sim.body import MissingParts, body_named
+from robot_sim.body import body_named
 from ros_runtime.course_error import CourseError
 
 WALKING_EXERCISES = (
@@ -24,6 +24,7 @@ def require_robot(robot: str, exercise: str) -> None:
 
     Raises:
         NotOnThisRobot: it cannot.
+        MissingParts: packages of the robot are not installed.
     """
     if exercise not in WALKING_EXERCISES:
         raise NotOnThisRobot(
@@ -32,7 +33,7 @@ def require_robot(robot: str, exercise: str) -> None:
         )
     try:
         body_named(robot)
-    except (ValueError, MissingParts) as error:
+    except ValueError as error:
         raise NotOnThisRobot(str(error)) from None
 
 

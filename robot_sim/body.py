@@ -11,11 +11,12 @@ from robot_sim.model.side import Side
 from robot_sim.walking.body_height import HeightLimits
 from robot_sim.walking.walking_controller import WalkingController
 from robot_sim.walking.walking_limits import WalkingLimits
+from ros_runtime.course_error import CourseError
 
 ROBOTS = ("humanoid", "g1")
 
 
-class MissingParts(Exception):
+class MissingParts(CourseError):
     """Packages of an optional robot are not installed; the message is one line with the command that installs them."""
 
 
