@@ -19,6 +19,7 @@ SENSORS = {  # the model's names of the sensors that the robot has, and the cour
     "orientation_pelvis": "imu_orientation",
 }
 FOOT_CONTACTS = 2  # the first pairs: each foot and the floor
+FOOT_FRICTION = (0.6, 0.6, 0.02, 0.001, 0.001)  # sliding, turning and rolling
 SOLE = (0.04, 0.0, -0.037)  # m, middle of the sole in the frame of the foot
 RADII = {"hip": 0.055, "knee": 0.05, "waist": 0.06, "shoulder": 0.04, "elbow": 0.035, "wrist": 0.03}  # m
 LIGHT, DARK, BLUE = (0.9, 0.91, 0.93, 1.0), (0.22, 0.23, 0.26, 1.0), (0.15, 0.45, 0.75, 1.0)
@@ -47,6 +48,8 @@ def g1_model(file: Path, shape: Callable[[mujoco.MjSpec], object] = lambda spec:
             sensor.name = SENSORS[sensor.name]
         else:
             spec.delete(sensor)
+    for pair in spec.pairs:
+        pair.condim, pair.friction = 4, FOOT_FRICTION
     spec.body("torso_link").name = "torso"
     _add_views(spec.body("pelvis"))
     _add_shape(spec)

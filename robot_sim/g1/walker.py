@@ -26,20 +26,10 @@ STANCE = np.array(
 ACTION_SCALE = 0.25  # rad for each unit of the network's output
 RATE_SCALE, JOINT_RATE_SCALE = 0.25, 0.05  # of angular velocities in the network's input
 # What the network walks (m/s) when it is asked for a velocity (m/s), measured over 10 s: it is slower, and drifts.
-ASKED_AHEAD, WALKED_AHEAD = (
-    (-0.4, -0.2, -0.05, 0.0, 0.1, 0.3, 0.5, 0.7),
-    (
-        *(-0.296, -0.169, -0.027, 0.022),
-        *(0.112, 0.27, 0.384, 0.463),
-    ),
-)
-ASKED_LEFT, WALKED_LEFT = (
-    (-0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3),
-    (
-        *(-0.123, -0.087, -0.037, 0.019),
-        *(0.078, 0.13, 0.172),
-    ),
-)
+ASKED_AHEAD = (-0.4, -0.2, -0.05, 0.0, 0.1, 0.3, 0.5, 0.7)
+WALKED_AHEAD = (-0.301, -0.173, -0.033, 0.017, 0.113, 0.263, 0.372, 0.456)
+ASKED_LEFT = (-0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3)
+WALKED_LEFT = (-0.13, -0.088, -0.037, 0.022, 0.084, 0.136, 0.176)
 HEADING_GAIN, MOST_TURN, MOST_HEADING_ERROR = 1.5, 0.7, 0.3  # 1/s, rad/s and rad
 LOADED = 20.0  # N on a foot that stands
 SWING_TIME = 0.1  # s; a foot that was in the air for less has not made a step
@@ -178,9 +168,11 @@ class LearnedWalker(WalkingController):
     def _count_steps(self) -> None:
         self._settled += 1 / RATE
         for index, foot in enumerate(self._feet):
+            is_swing = self._in_air[index] > SWING_TIME
+            if is_swing:
+                self._settled = 0.0
             if foot.read().force[2] < LOADED:
                 self._in_air[index] += 1 / RATE
-                self._settled = 0.0
             else:
-                self.steps += self._in_air[index] > SWING_TIME
+                self.steps += is_swing
                 self._in_air[index] = 0.0
