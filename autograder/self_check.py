@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
 OnEvidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
 
+EXTRA = "An extra, which gives no points and changes no progress: these checks run on the robot {robot}."
 NOTEBOOK_WIDTH = 104  # characters; fits into JupyterLab with its file browser on a screen of 1280 pixels
 
 
@@ -95,7 +96,7 @@ def self_check(exercise: str, file: str | Path | None = None, *, page: str | Pat
 def check_and_keep(console: Console, path: Path, exercise: str, **options: Any) -> Grade:
     """Like `check_with_progress`, with its options; also store the number of passed checks for the progress page."""
     result = check_with_progress(console, path, exercise, **options)
-    if result.status == "graded":
+    if result.status == "graded" and not options.get("robot"):
         passed = sum(check.status == "passed" for check in result.checks)
         store_check(exercise, passed, len(result.checks), result.program)
     return result
@@ -110,19 +111,28 @@ def check_with_progress(
     arenas: SubmissionArenas | None = None,
     recordings: Path | None = None,
     page: Path | None = None,
+    robot: str | None = None,
 ) -> Grade:
     """Check a student's file with the visible checks; print each verdict as soon as it is known, then the table.
 
     `arenas` are those of this submission, if one was opened ahead; `recordings` is a folder for recordings of the
-    scenarios, if they are wanted, and `page` a file for a page to show.
+    scenarios, if they are wanted, and `page` a file for a page to show. With another `robot` the checks have no points.
 
-    Raises `UnusableSubmission`, `UnknownExercise` and `NoPage`.
+    Raises `UnusableSubmission`, `UnknownExercise`, `NoPage` and `NotOnThisRobot`.
     """
     if page:
         _require_place(page)
     loaded = load_exercise(exercise, hidden=False)
+    if robot:
+        # imported only if needed, because it loads MuJoCo
+        from autograder.other_robot import require_robot, with_robot
+
+        require_robot(robot, exercise)
+        loaded = with_robot(robot, loaded)
     submission = read_submission(path, exercise)
     recorder = _recorder(loaded) if recordings or page else None
+    if robot:
+        console.print(EXTRA.format(robot=robot), style="bold", markup=False)
     print_beginning(console, path, loaded)
     if not (isolation := available_isolation()).trusted:
         said = (

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import sys
 
-from robot_sim.ros.serve import parse_options, serve_robot
+from robot_sim.body import MissingParts
+from robot_sim.ros.serve import build_humanoid, parse_options, serve_robot
 from ros_runtime.ros_domain import require_usable_domain
 
 
@@ -13,9 +14,10 @@ def main() -> None:
     options = parse_options()
     try:
         require_usable_domain()
-    except ValueError as error:
+        humanoid = build_humanoid(options)
+    except (ValueError, MissingParts) as error:
         sys.exit(f"course sim: {error}")
-    serve_robot(options)
+    serve_robot(options, humanoid)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -14,10 +13,7 @@ from robot_sim.arms.joint_brakes import BRAKE_TORQUE, JointBrakes
 from robot_sim.arms.joint_trajectory import HOLD, JointTrajectory
 from robot_sim.arms.upper_body import UpperBody
 from robot_sim.battery import Battery
-from robot_sim.model.build import TIMESTEP, build_model
-from robot_sim.model.dimensions import dimensions_of
-from robot_sim.model.joint_names import ACTUATED_JOINTS
-from robot_sim.model.posture import take_stance
+from robot_sim.body import body_named
 from robot_sim.model.scenes import OBJECTS
 from robot_sim.model.side import SIDES, Side
 from robot_sim.push import Pusher
@@ -25,19 +21,14 @@ from robot_sim.rest import Rest
 from robot_sim.sensors.foot_sensor import FootSensor
 from robot_sim.sensors.imu import Imu
 from robot_sim.state import BasePose, BaseVelocity, ImuSample, JointState, Mode, ObjectPose
-from robot_sim.walking.balance_gains import BalanceGains, trunk_of
-from robot_sim.walking.body_height import BodyHeight, HeightLimits
+from robot_sim.walking.balance_gains import BalanceGains
+from robot_sim.walking.body_height import BodyHeight
 from robot_sim.walking.footsteps import Command, Goal
-from robot_sim.walking.gait import Phase
 from robot_sim.walking.planar import clamp
-from robot_sim.walking.walker import Walker
-from robot_sim.walking.walker_parameters import WalkerParameters
-from robot_sim.walking.walking_limits import WalkingLimits, walkable_velocity
+from robot_sim.walking.walking_limits import walkable_velocity
 from ros_runtime.angles import yaw_of
 
-# The robot has fallen if it is below one of these.
-FALLEN_HEIGHT = 0.38  # m, of the pelvis above the origin
-FALLEN_UP = 0.6  # z component of the torso's up-vector: 1 upright, 0 lying
+FALLEN_UP = 0.6  # z component of the torso's up-vector (1 upright, 0 lying), below which the robot has fallen
 
 
 class Humanoid:
@@ -49,11 +40,14 @@ class Humanoid:
         scene: "flat", "table" (with a cup in front of the robot) or "stand" (which holds it, motors on or off).
         seed: of the sensors' errors.
         shape: called with the model before it is compiled, such as to tilt the floor.
+        robot: one of `body.ROBOTS`.
 
     Raises:
-        ValueError: the scene is not known.
+        ValueError: the robot or the scene is not known.
+        MissingParts: the robot is optional, and its packages are not installed.
 
     Attributes:
+        body: what distinguishes this kind of robot from others.
         scene: its name.
         seed: of the sensors' errors; a new one takes effect at the next `reset()`.
         model, data: of MuJoCo; the pelvis is base_link, the world is odom.
@@ -71,49 +65,47 @@ class Humanoid:
         *,
         seed: int = 0,
         shape: Callable[[mujoco.MjSpec], object] = lambda spec: None,
+        robot: str = "humanoid",
     ) -> None:
+        self.body = body_named(robot)
         self.scene = scene
-        self.model = build_model(scene, shape=shape)
+        self.model = self.body.model(scene, shape)
         self.data = mujoco.MjData(self.model)
-        self.timestep = TIMESTEP
+        self.timestep: float = self.model.opt.timestep
         self.seed = seed
-        self._parameters = WalkerParameters(dimensions_of(self.model))
-        self._trunk = trunk_of(self.model)
-        self._limits = WalkingLimits()
-        joints = [self.model.joint(name) for name in ACTUATED_JOINTS]
+        joints = [self.model.joint(name) for name in self.body.joints]
         self._joint_positions = np.array([joint.qposadr[0] for joint in joints])
         self._joint_velocities = np.array([joint.dofadr[0] for joint in joints])
         self._torso_rotation = self.data.xmat[self.model.body("torso").id]
-        self._rest = Rest(self.data, TIMESTEP)
+        self._rest = Rest(self.data, self.timestep)
         self.reset()
 
     def reset(self, x: float = 0.0, y: float = 0.0, yaw: float = 0.0, *, height: float | None = None) -> None:
         """Stand at rest at (x, y) m, heading `yaw` rad, odom frame: time 0, battery full, motors on.
 
-        With a `height` (m, of the pelvis, 0.45 to 0.60) below that of the stance it begins in a crouch.
+        With a `height` (m, of the pelvis) below that of the stance it begins in a crouch, if it can crouch.
         """
         self._set_actuation(True)
-        size = self._parameters.dimensions
-        if height is not None:
-            size = replace(size, stance_height=clamp(height, HeightLimits().lowest, size.stance_height))
-        take_stance(self.model, self.data, size, x, y, yaw)
+        stance = self.body.stance_height(self.model)
+        height = stance if height is None else clamp(height, self.body.heights.lowest, stance)
+        self.body.take_stance(self.model, self.data, x, y, yaw, height)
         self.battery = Battery()
         self._imu = Imu(self.model, self.data, self.seed)
         self._pusher = Pusher(self.model, self.data, "torso")
-        self._brakes = JointBrakes(self.model, self.data)
+        self._brakes = JointBrakes(self.model, self.data, self.body.movable)
         self._take_control()
-        self._height.set(size.stance_height)
-        self.hands = {side: Hand(self.model, self.data, side) for side in SIDES}
+        self._height.set(height)
+        self.hands = {side: Hand(self.model, self.data, side) for side in self.body.hands}
         self.feet = {side: FootSensor(self.model, self.data, side) for side in SIDES}
         self._earlier_steps = 0
         self._fallen = False
 
     def _take_control(self) -> None:
         """Start the controllers from the present state of the robot."""
-        self._walker = Walker(self.model, self.data, self.data, self._trunk, self._parameters)
-        self._height = BodyHeight(self._walker, self._parameters.dimensions, HeightLimits())
+        self._walker = self.body.walker(self.model, self.data)
+        self._height = BodyHeight(self._walker, self.body.stance_height(self.model), self.body.heights)
         self._pending: Command = None
-        self._upper_body = UpperBody(self.model, self.data)
+        self._upper_body = UpperBody(self.model, self.data, self.body.movable)
 
     def step(self) -> None:
         """Simulate one timestep."""
@@ -149,7 +141,7 @@ class Humanoid:
 
     @may_rest.setter
     def may_rest(self, allowed: bool) -> None:
-        self._rest.allowed = allowed
+        self._rest.allowed = allowed and self.body.may_rest
         self._rest.wake()
 
     @property
@@ -186,7 +178,7 @@ class Humanoid:
         Raises:
             ValueError: a component is not finite.
         """
-        self._follow(walkable_velocity(vx, vy, wz, self._limits))
+        self._follow(walkable_velocity(vx, vy, wz, self.body.limits))
 
     def walk_to(self, x: float, y: float, yaw: float) -> None:
         """Walk until the midpoint of the feet is at (x, y) m with heading `yaw` rad, odom frame.
@@ -233,7 +225,7 @@ class Humanoid:
         """Hold a joint of waist, head or arm in its position, with at most `grip` (N·m), until `release_joint`.
 
         Raises:
-            ValueError: the joint is not in waist, head or arm, or the grip is not positive.
+            ValueError: the joint is not one that a trajectory moves, or the grip is not positive.
         """
         self._brakes.hold(joint, grip)
         self._rest.wake()
@@ -267,7 +259,8 @@ class Humanoid:
     def move_body(self, rate: float) -> None:
         """Crouch or rise at `rate` (m/s, upwards) until the next command; ignored while the motors are off.
 
-        The pelvis stays between 0.45 m and the 0.60 m of the stance. A crouching robot rises before it walks.
+        The pelvis stays between the lowest crouch, 0.45 m, and the 0.60 m of the stance. A crouching robot rises before
+        it walks. The G1 cannot crouch.
 
         Raises:
             ValueError: the rate is not finite.
@@ -278,12 +271,15 @@ class Humanoid:
                 self._rest.wake()
 
     @property
-    def balance_gains(self) -> BalanceGains:
-        """How stiffly the trunk is held upright; gains that are too weak or too stiff make the robot fall."""
+    def balance_gains(self) -> BalanceGains | None:
+        """How stiffly the trunk is held upright; gains that are too weak or too stiff make the robot fall.
+
+        None if the robot's walker has none; setting them then raises a ValueError.
+        """
         return self._walker.gains
 
     @balance_gains.setter
-    def balance_gains(self, gains: BalanceGains) -> None:
+    def balance_gains(self, gains: BalanceGains | None) -> None:
         self._walker.gains = gains
         self._rest.wake()
 
@@ -320,12 +316,12 @@ class Humanoid:
             return Mode.FALLEN
         if not self.motors_enabled:
             return Mode.OFF
-        return Mode.STANDING if self._walker.gait.phase is Phase.STAND else Mode.WALKING
+        return Mode.STANDING if self._walker.stands else Mode.WALKING
 
     @property
     def steps(self) -> int:
         """Footsteps (touchdowns) since reset."""
-        return self._earlier_steps + self._walker.gait.steps
+        return self._earlier_steps + self._walker.steps
 
     @property
     def is_held(self) -> bool:
@@ -335,7 +331,7 @@ class Humanoid:
     @property
     def arrived(self) -> bool:
         """Whether the pose of the last `walk_to` is reached and both feet stand."""
-        return self.mode is Mode.STANDING and self._walker.gait.goal_reached
+        return self.mode is Mode.STANDING and self._walker.goal_reached
 
     def base_pose(self) -> BasePose:
         """Return the pose of base_link in the odom frame."""
@@ -357,7 +353,7 @@ class Humanoid:
     def joint_state(self) -> JointState:
         """Return positions, velocities and efforts of the actuated joints."""
         return JointState(
-            tuple(ACTUATED_JOINTS),
+            tuple(self.body.joints),
             self.data.qpos[self._joint_positions],
             self.data.qvel[self._joint_velocities],
             self.data.actuator_force.copy(),
@@ -401,7 +397,7 @@ class Humanoid:
 
     @property
     def _is_down(self) -> bool:
-        return self.data.qpos[2] < FALLEN_HEIGHT or self._torso_rotation[8] < FALLEN_UP
+        return self.data.qpos[2] < self.body.fallen_height or self._torso_rotation[8] < FALLEN_UP
 
     def _set_actuation(self, on: bool) -> None:
         self._rest.wake()

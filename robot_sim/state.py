@@ -60,12 +60,12 @@ class BaseVelocity:
 
 @dataclass(frozen=True)
 class JointState:
-    """The actuated joints, in the order of `joint_names.ACTUATED_JOINTS`; fingers in m, m/s and N."""
+    """The n actuated joints, in the order of the robot's `Body.joints`; fingers in m, m/s and N."""
 
     names: tuple[str, ...]
-    position: np.ndarray  # (34,) rad
-    velocity: np.ndarray  # (34,) rad/s
-    effort: np.ndarray  # (34,) N·m
+    position: np.ndarray  # (n,) rad
+    velocity: np.ndarray  # (n,) rad/s
+    effort: np.ndarray  # (n,) N·m
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from autograder.recording.interface_messages import InterfaceMessages
 from autograder.recording.kept import Recordings
 from autograder.recording.log_messages import RecordedVerdict, log_messages, verdict_messages
 from autograder.recording.mcap_file import mcap_file
-from autograder.recording.robot_messages import robot_messages, scene_of
+from autograder.recording.robot_messages import robot_messages, scene_and_robot_of
 
 MAX_SUBMISSION_BYTES = 64 * 2**20  # of all recordings of a submission
 
@@ -92,6 +92,7 @@ class Recorder:
 
     def _metadata(self, run: Transcript, scenario: Scenario, grade: Grade) -> dict[str, str]:
         """Return the metadata that `course replay` and other viewers show."""
+        scene, robot = scene_and_robot_of(run)
         return {
             "format": FORMAT,
             "exercise": grade.exercise,
@@ -102,7 +103,8 @@ class Recorder:
             "seed": str(grade.seed),
             "scale": f"{run.scale:g}",  # how much faster than real time the arena's clock ran
             "end": f"{run.end:.6f}",  # s on the arena's clock
-            "scene": scene_of(run),  # "" without a robot
+            "scene": scene,  # "" without a robot, like the next
+            "robot": robot,
             "shows_hidden_checks": "yes" if self._shows_hidden else "no",
         }
 

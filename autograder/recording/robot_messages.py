@@ -27,9 +27,10 @@ def robot_messages(transcript: Transcript, namespace: str) -> Iterator[Entry]:
         yield Entry(event.t, full_name(namespace, "battery_state"), event.message, essential=True)
 
 
-def scene_of(transcript: Transcript) -> str:
-    """Return the robot's scene; "" if the transcript has no postures."""
-    return next((event.scene for event in transcript.postures if isinstance(event, ev.BodyDescribed)), "")
+def scene_and_robot_of(transcript: Transcript) -> tuple[str, str]:
+    """Return the scene and the kind of robot; "" and "" if the transcript has no postures."""
+    described = (event for event in transcript.postures if isinstance(event, ev.BodyDescribed))
+    return next(((event.scene, event.robot) for event in described), ("", ""))
 
 
 def _postures(transcript: Transcript, namespace: str) -> Iterator[Entry]:

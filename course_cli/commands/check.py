@@ -42,6 +42,12 @@ def check(
             metavar="FILE.html", help="write a page to show: task, program, points, a film of the robot"
         ),
     ] = None,
+    robot: Annotated[
+        str | None,
+        typer.Option(
+            help="an extra without points: check a walking program on another robot, g1 (docs/robot.md)"
+        ),
+    ] = None,
     jobs: JobsOption = 2,
     course: CourseOption = None,
 ) -> None:
@@ -51,6 +57,10 @@ def check(
     path, left_aside = own_work(exercise, file)
     for line in left_aside:
         console.print(f"left aside: {line}", style="yellow", markup=False)
+    if robot and page:
+        raise UnusableSubmission(
+            "--page shows points, and a check on another robot gives none: leave --page or --robot out"
+        )
     if exercise in essay_names():
         if page:
             raise UnusableSubmission(f"{exercise} has no page: a person marks it, so no run can be shown")
@@ -64,9 +74,9 @@ def check(
 
         folder = Path("recordings") / exercise if record else None
         result = check_and_keep(
-            console, path, exercise, jobs=jobs, arenas=arenas, recordings=folder, page=page
+            console, path, exercise, jobs=jobs, arenas=arenas, recordings=folder, page=page, robot=robot
         )
-    if later := hidden_checks_notice(exercise):
+    if not robot and (later := hidden_checks_notice(exercise)):
         console.print(later, markup=False)
     if json_file:
         json_file.write_text(json.dumps(result.to_json(), indent=2) + "\n")

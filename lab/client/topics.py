@@ -102,11 +102,11 @@ def has_published() -> bool:
     return _last_messages().messages.keys() >= TOPICS.keys()
 
 
-def reset_for_scene(scene: str) -> None:
+def reset_for_scene(scene: str, robot: str = "humanoid") -> None:
     """Drop the messages of an earlier robot, and subscribe to the objects of this scene and to the right gripper."""
     stored = _last_messages()
     stored.messages.clear()
-    stored.scene = scene
+    stored.scene, stored.robot = scene, robot
     if OBJECTS[scene]:
         stored.subscribe(GRIPPER_TOPIC, WrenchStamped, QUEUE_DEPTH)
     for name in OBJECTS[scene]:
@@ -116,6 +116,11 @@ def reset_for_scene(scene: str) -> None:
 def scene() -> str:
     """Return the name of the scene in which the robot was started."""
     return _last_messages().scene
+
+
+def robot() -> str:
+    """Return the name of the robot that was started: "humanoid" or "g1"."""
+    return _last_messages().robot
 
 
 def object_poses() -> dict[str, PoseStamped]:
@@ -151,13 +156,13 @@ def _last_messages() -> _LastMessages:
 class _LastMessages:
     """Subscribes to topics and keeps each topic's last message with its time of arrival.
 
-    `scene` is the name of the scene in which the robot was started.
+    `scene` is the name of the scene in which the robot was started, `robot` the robot's name.
     """
 
     def __init__(self, node: Node) -> None:
         self.messages: dict[str, tuple[Any, float]] = {}
         self.listeners: list[Callable[[str, Any], object]] = []
-        self.scene = "flat"
+        self.scene, self.robot = "flat", "humanoid"
         self._node = node
         self._topics: set[str] = set()
         for topic, (message_type, qos) in TOPICS.items():

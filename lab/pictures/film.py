@@ -20,7 +20,7 @@ from sensor_msgs.msg import JointState
 
 from lab.client import topics
 from lab.pictures.labels import Mark
-from lab.pictures.picture import HEIGHT, WIDTH, as_mujoco, figure, set_current_posture
+from lab.pictures.picture import HEIGHT, WIDTH, as_mujoco, body_to_draw, figure, set_current_posture
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.film import save_frames
 from robot_sim.views.view import View
@@ -50,7 +50,7 @@ def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: 
             set_current_posture(body)
             yield
 
-    return _film(postures, words, lambda: f"{words}, to {topics.pose()}", camera, file, topics.scene())
+    return _film(postures, words, lambda: f"{words}, to {topics.pose()}", camera, file)
 
 
 def film_of_messages(
@@ -60,7 +60,6 @@ def film_of_messages(
     seconds: float,
     *,
     marks: Sequence[Mark],
-    scene: str,
     slow_motion: float,
     camera: str,
     file: str | Path | None,
@@ -83,7 +82,7 @@ def film_of_messages(
     def postures(body: Humanoid) -> Iterator[None]:
         return set_postures(body, np.arange(count) / RATE / slow_motion, odometry, joints, objects)
 
-    return _film(postures, words, lambda: words, camera, file, scene)
+    return _film(postures, words, lambda: words, camera, file)
 
 
 def set_postures(
@@ -122,10 +121,9 @@ def _film(
     caption: Callable[[], str],
     camera: str,
     file: str | Path | None,
-    scene: str,
 ) -> HTML:
     """Draw a frame for each posture; `caption` is called after the last frame."""
-    body = Humanoid(scene)
+    body = body_to_draw()
     try:
         view = View(body, WIDTH, HEIGHT, shadows=False)
     except NoOpenGLError as error:

@@ -12,15 +12,13 @@ import numpy as np
 from IPython.display import HTML
 from PIL import Image, ImageDraw
 
-from lab.client import topics
 from lab.errors import LabError
 from lab.pictures.figure import BLUE, GREY, VERMILION
 from lab.pictures.film import MAX_DURATION, RATE, set_postures
 from lab.pictures.lettering import font
-from lab.pictures.picture import figure
+from lab.pictures.picture import body_to_draw, figure
 from lab.pictures.recorded_goal import RecordedGoal
 from lab.pictures.recording import Recording
-from robot_sim.humanoid import Humanoid
 from robot_sim.views.film import save_frames
 from robot_sim.views.view import View
 from ros_runtime.message_constants import RobotMode, name_of
@@ -93,7 +91,7 @@ class _Walk:
     def frames(self, after: np.ndarray, camera: str) -> list[Image.Image]:
         """Return a picture for each time (s) after the beginning; after the recording's end, repeat the last one."""
         at = np.minimum(self.begin + after, self.recording.seconds)
-        body = Humanoid(topics.scene())
+        body = body_to_draw()
         view = View(body, WIDTH, HEIGHT, shadows=False)
         try:
             postures = set_postures(

@@ -15,7 +15,7 @@ from traitlets import Unicode
 from lab.client import topics
 from lab.errors import NoRobotError
 from lab.pictures.panel import Panel
-from lab.pictures.picture import HEIGHT, WIDTH, set_current_posture
+from lab.pictures.picture import HEIGHT, WIDTH, body_to_draw, set_current_posture
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.view import View
 from ros_runtime.notebook_domains import is_notebook_of_a_lab, robot_of_another_notebook
@@ -124,7 +124,7 @@ class _LiveView:
     def _draw_until_stopped(self) -> None:
         try:
             while not self._stop.is_set():
-                body = Humanoid(topics.scene())
+                body = body_to_draw()
                 view = View(body, *self._size, shadows=False)
                 try:
                     self._draw(body, view)
@@ -137,9 +137,9 @@ class _LiveView:
         self._begun.set()
 
     def _draw(self, body: Humanoid, view: View) -> None:
-        """Draw until the view is stopped, or the robot is in another scene."""
+        """Draw until the view is stopped, or another robot or scene was started."""
         drawn = np.full(body.model.nq, np.inf)
-        while not self._stop.is_set() and topics.scene() == body.scene:
+        while not self._stop.is_set() and (topics.scene(), topics.robot()) == (body.scene, body.body.name):
             began = time.monotonic()
             try:
                 set_current_posture(body)

@@ -29,7 +29,7 @@ def show_robot(camera: str = "track") -> HTML:
     Without OpenGL you get the caption of the picture and the reason why there is none.
     """
     words = f"The robot: {topics.mode()} at {topics.pose()}"
-    body = _body(topics.scene())
+    body = _body(topics.scene(), topics.robot())
     set_current_posture(body)
     try:
         pixels = snapshot(body, WIDTH, HEIGHT, camera=camera)
@@ -56,10 +56,14 @@ def hideable(film: str) -> str:
     return f"<details open><summary>Film</summary>{film}</details>"
 
 
+def body_to_draw() -> Humanoid:
+    """Make a robot like the one that was started, which is only drawn, never simulated."""
+    return Humanoid(topics.scene(), robot=topics.robot())
+
+
 @cache
-def _body(scene: str) -> Humanoid:
-    """Return a humanoid that is only drawn, never simulated."""
-    return Humanoid(scene)
+def _body(scene: str, robot: str) -> Humanoid:
+    return Humanoid(scene, robot=robot)
 
 
 def set_current_posture(body: Humanoid) -> None:

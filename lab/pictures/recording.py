@@ -199,7 +199,6 @@ class Recording:
             {name: self._messages[topics.topic_of(name)] for name in topics.object_poses()},
             self.seconds,
             marks=sorted(self._all_marks),
-            scene=topics.scene(),
             slow_motion=slow_motion,
             camera=camera,
             file=file,

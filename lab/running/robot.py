@@ -15,6 +15,7 @@ from lab.errors import NoRobotError
 from lab.notices import notice
 from lab.pictures.live_view import watch_beside_the_notebook
 from lab.running.processes import GRACE, Process
+from robot_sim.body import MissingParts, body_named
 from robot_sim.model.scenes import OBJECTS
 from ros_runtime.notebook_domains import announce_robot, expect_node, forget_node, robot_of_another_notebook
 
@@ -24,36 +25,44 @@ NODE_NAME = f"{NAMESPACE}/humanoid"
 _robot: Process | None = None
 
 
-def start_robot(scene: str = "flat") -> None:
+def start_robot(scene: str = "flat", *, robot: str = "humanoid") -> None:
     """Start the robot and wait for the first message on each of its topics; do nothing if it is already running.
 
     In `course lab` the robot is shown beside the notebook, and a robot that another notebook has started ends.
     In the scene "stand" a stand holds the robot by the chest, so that it does not fall without power. In the scene
-    "table" there are a table and a cup.
+    "table" there are a table and a cup. The robot "g1" is another one, with a learned walker (docs/robot.md).
 
-    Raises NoRobotError when the robot does not start within 30 s; the message quotes the robot's output.
+    Raises:
+        NoRobotError: the robot does not start within 30 s; the message quotes the robot's output. Or packages of the
+            G1 are missing; the message has the command that installs them.
+        ValueError: the robot is not known.
     """
     global _robot
+    try:
+        body_named(robot)
+    except MissingParts as error:
+        raise NoRobotError(str(error)) from None
     domain_id = connection().domain_id  # also sets the environment that the child inherits
     ended = ""
     if _robot is None or not _robot.is_running:
         ended = _end_robot_of_another_notebook()
-        topics.reset_for_scene(scene)
+        topics.reset_for_scene(scene, robot)
         rest = () if OBJECTS[scene] else ("--may-rest",)  # a cup never lies still enough for a rest
-        _robot = Process(["-m", "robot_sim", "--namespace", NAMESPACE, "--rtf", "1", "--scene", scene, *rest])
+        options = ("--namespace", NAMESPACE, "--rtf", "1", "--robot", robot, "--scene", scene, *rest)
+        _robot = Process(["-m", "robot_sim", *options])
         announce_robot(domain_id, _robot.pid)
     watch_beside_the_notebook()
-    robot = _robot
+    process = _robot
     with notice("The robot is starting, which takes a few seconds, on a busy machine up to 30 s."):
-        is_up = becomes_true(lambda: topics.has_published() or not robot.is_running, START_TIMEOUT)
+        is_up = becomes_true(lambda: topics.has_published() or not process.is_running, START_TIMEOUT)
     if not is_up:
         raise NoRobotError(
             f"the robot runs, but not all of its topics were received within {START_TIMEOUT:g} s. The machine may be "
-            f"too busy; try lab.restart_robot(). The robot printed:\n{robot.output()}"
+            f"too busy; try lab.restart_robot(). The robot printed:\n{process.output()}"
         )
-    if not robot.is_running:
+    if not process.is_running:
         raise NoRobotError(
-            f"the robot's process ended with exit status {robot.exit_status}; it printed:\n{robot.output()}"
+            f"the robot's process ended with exit status {process.exit_status}; it printed:\n{process.output()}"
         )
     forget_node(NODE_NAME)  # an entry of a robot that was already running, or that crashed
     expect_node(NODE_NAME)
@@ -95,10 +104,10 @@ def robot_process() -> Process:
     return _robot
 
 
-def restart_robot(scene: str = "flat") -> None:
+def restart_robot(scene: str = "flat", *, robot: str = "humanoid") -> None:
     """Stop the robot and start a new one, which stands at the origin with a full battery."""
     stop_robot()
-    start_robot(scene)
+    start_robot(scene, robot=robot)
 
 
 def stop_robot() -> None:

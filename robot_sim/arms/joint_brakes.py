@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import mujoco
 import numpy as np
-
-from robot_sim.arms.joint_trajectory import MOVABLE
 
 STIFFNESS = 600.0  # N·m/rad; three times an arm's servo
 BRAKE_TORQUE = 80.0  # N·m, twice the torque of an arm's strongest motor
@@ -17,7 +17,8 @@ class JointBrakes:
     A spring acts between the two links of its joint, so it neither lifts the robot nor pushes it over.
     """
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, joints: Sequence[str]) -> None:
+        self._joints = joints
         self._model, self._data = model, data
         self._held: dict[str, tuple[int, int, float, float]] = {}
 
@@ -27,8 +28,9 @@ class JointBrakes:
         Raises:
             ValueError: the joint is not one of those that a trajectory moves, or the grip is not positive.
         """
-        if joint not in MOVABLE:
-            raise ValueError(f"joint {joint!r} cannot be held; the joints are {', '.join(MOVABLE)}")
+        if joint not in self._joints:
+            known = ", ".join(self._joints) or "none of this robot"
+            raise ValueError(f"joint {joint!r} cannot be held; the joints are {known}")
         if not 0 < grip < float("inf"):
             raise ValueError(f"grip is {grip}; expected more than 0 N·m")
         position = int(self._model.joint(joint).qposadr[0])

@@ -20,11 +20,11 @@ class Servos:
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, joints: Sequence[str]) -> None:
-        ids = [model.joint(name).id for name in joints]
+        ids = np.array([model.joint(name).id for name in joints], dtype=int)
         self._data = data
         self._positions = model.jnt_qposadr[ids].copy()
         self._dofs = model.jnt_dofadr[ids].copy()
-        self._motors = np.array([model.actuator(name).id for name in joints])
+        self._motors = np.array([model.actuator(name).id for name in joints], dtype=int)
         self._stiffness = model.actuator_gainprm[self._motors, 0].copy()
         self._damping = -model.actuator_biasprm[self._motors, 2]
         self._low = model.jnt_range[ids, 0] + RANGE_MARGIN

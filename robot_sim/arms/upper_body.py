@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import mujoco
 import numpy as np
 
-from robot_sim.arms.joint_trajectory import MOVABLE, JointPath, JointTrajectory
+from robot_sim.arms.joint_trajectory import JointPath, JointTrajectory
 from robot_sim.arms.servos import Servos
 
 
@@ -26,19 +27,19 @@ class UpperBodyParameters:
 
 
 class UpperBody:
-    """The controller of the 18 joints of waist, head and arms. A joint without a command holds its position.
+    """The controller of `joints` of waist, head and arms. A joint without a command holds its position.
 
     Until the first command the servos hold the posture of the stance by themselves.
     """
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, joints: Sequence[str]) -> None:
         self._parameters = UpperBodyParameters()
-        self._servos = Servos(model, data, MOVABLE)
-        self._index = {name: index for index, name in enumerate(MOVABLE)}
-        self._speed_limit = np.array([self._parameters.speed_limit(name) for name in MOVABLE])
+        self._servos = Servos(model, data, joints)
+        self._index = {name: index for index, name in enumerate(joints)}
+        self._speed_limit = np.array([self._parameters.speed_limit(name) for name in joints])
         self._position = self._servos.position.copy()
         self._goal = self._position.copy()
-        self._velocity = np.zeros(len(MOVABLE))
+        self._velocity = np.zeros(len(joints))
         self._commanded = False
         self._path: JointPath | None = None
         self._path_joints: list[int] = []

@@ -57,6 +57,8 @@ class ArmIkService:
 
     def _solve(self, request: ComputeArmIK.Request) -> ArmPosture:
         side = _side(request.arm)
+        if not self._humanoid.body.movable:
+            raise _IkError(ComputeArmIK.Response.NO_IK_SOLUTION, "this robot's arms cannot be commanded")
         position, rotation = self._in_base_link(request.hand_pose)
         is_free = not self._humanoid.is_held  # a stand holds the waist too
         balancing = is_free and request.hand_pose.header.frame_id == "odom"

@@ -2,26 +2,26 @@
 
 from __future__ import annotations
 
-import mujoco
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
 
 from humanoid_interfaces.msg import JointLimits
-from robot_sim.arms.joint_trajectory import MOVABLE
 from robot_sim.arms.upper_body import UpperBodyParameters
+from robot_sim.humanoid import Humanoid
 from robot_sim.ros.messages import floats
 
 
-def publish_joint_limits(node: Node, model: mujoco.MjModel, latched: QoSProfile) -> Publisher:
+def publish_joint_limits(node: Node, humanoid: Humanoid, latched: QoSProfile) -> Publisher:
     """Publish the limits of the joints that a trajectory can move; later subscribers receive the message, too."""
-    ranges = model.jnt_range[[model.joint(name).id for name in MOVABLE]]
+    names = list(humanoid.body.movable)
+    ranges = humanoid.model.jnt_range[[humanoid.model.joint(name).id for name in names]]
     speeds = UpperBodyParameters()
     message = JointLimits(
-        names=list(MOVABLE),
+        names=names,
         lower=floats(ranges[:, 0]),
         upper=floats(ranges[:, 1]),
-        velocity=[speeds.speed_limit(name) for name in MOVABLE],
+        velocity=[speeds.speed_limit(name) for name in names],
     )
     publisher = node.create_publisher(JointLimits, "joint_limits", latched)
     publisher.publish(message)

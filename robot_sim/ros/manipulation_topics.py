@@ -12,7 +12,7 @@ from trajectory_msgs.msg import JointTrajectory as JointTrajectoryMessage
 
 from robot_sim.arms.joint_trajectory import JointTrajectory, Waypoint
 from robot_sim.humanoid import Humanoid
-from robot_sim.model.side import SIDES, Side
+from robot_sim.model.side import Side
 from robot_sim.ros.messages import has_subscribers, set_fields
 from robot_sim.state import HandPose, ObjectPose
 
@@ -34,13 +34,15 @@ class ManipulationTopics:
             node.create_subscription(
                 Float64, f"{side.letter}_gripper/command", partial(self._on_opening, side), 10
             )
-            for side in SIDES
+            for side in humanoid.hands
         ]
         self._wrenches = {
-            side: node.create_publisher(WrenchStamped, f"{side.letter}_gripper/wrench", 10) for side in SIDES
+            side: node.create_publisher(WrenchStamped, f"{side.letter}_gripper/wrench", 10)
+            for side in humanoid.hands
         }
         self._hands = {
-            side: node.create_publisher(PoseStamped, f"{side.letter}_hand/pose", 10) for side in SIDES
+            side: node.create_publisher(PoseStamped, f"{side.letter}_hand/pose", 10)
+            for side in humanoid.hands
         }
         self._objects = {
             name: node.create_publisher(PoseStamped, f"objects/{name}/pose", 10)
@@ -54,6 +56,10 @@ class ManipulationTopics:
 
     def _on_trajectory(self, message: JointTrajectoryMessage) -> None:
         try:
+            if not self._humanoid.body.movable:
+                raise ValueError(
+                    "this robot has no joint that a trajectory can move; its walker moves them all"
+                )
             self._humanoid.move_joints(_trajectory(message))
         except ValueError as error:
             self._node.get_logger().error(f"joint_trajectory ignored: {error}")

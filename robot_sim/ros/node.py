@@ -17,7 +17,6 @@ from std_msgs.msg import Bool
 from humanoid_interfaces.msg import BalanceGains as BalanceGainsMessage
 from humanoid_interfaces.msg import RobotState
 from robot_sim.humanoid import Humanoid, Mode
-from robot_sim.model.joint_names import ACTUATED_JOINTS
 from robot_sim.ros.arm_ik_service import ArmIkService
 from robot_sim.ros.foot_topics import FootTopics
 from robot_sim.ros.ground_truth import GroundTruthWriter
@@ -80,7 +79,7 @@ class HumanoidNode(Node):
         manipulation = ManipulationTopics(self, humanoid)
         feet = FootTopics(self, humanoid)
         ArmIkService(self, humanoid)
-        self._joint_limits = publish_joint_limits(self, humanoid.model, LATCHED)
+        self._joint_limits = publish_joint_limits(self, humanoid, LATCHED)
         report = ground_truth.write if ground_truth else None
         subscriptions = (
             self.create_subscription(Twist, "cmd_vel", self._on_velocity, 10),
@@ -116,7 +115,7 @@ class HumanoidNode(Node):
         They share one stamp.
         """
         self._stamp = Time()
-        self._joint_message = JointState(name=list(ACTUATED_JOINTS))
+        self._joint_message = JointState()
         self._imu_message = Imu()
         self._imu_message.header.frame_id = "imu_link"
         self._odom_message = Odometry(child_frame_id="base_link")

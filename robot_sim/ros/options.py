@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from robot_sim.body import ROBOTS
 from robot_sim.model.scenes import SCENES
 
 
@@ -17,6 +18,7 @@ class RobotOptions:
         rtf: real-time factor, simulated seconds per second; 0: as fast as possible.
         namespace: of the node.
         view: show it in a browser, served at `port` (0: the first free from 8080 on).
+        robot: one of `body.ROBOTS`.
         scene, crouch, seed: the scene, whether the robot begins in a crouch, and the seed of the sensors' noise.
         ground_truth_fd, control_fd: descriptors of the arena's pipes; with control_fd the robot is graded and /sim is
             absent.
@@ -29,6 +31,7 @@ class RobotOptions:
     namespace: str = "/robot"
     view: bool = False
     port: int = 0
+    robot: str = "humanoid"
     scene: str = "flat"
     crouch: bool = False
     seed: int = 0
@@ -59,6 +62,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--port", type=int, default=0, help="port of the view (default: the first free one from 8080 on)"
     )
+    parser.add_argument("--robot", choices=ROBOTS, default="humanoid", help="which robot (default humanoid)")
     parser.add_argument("--scene", choices=tuple(SCENES), default="flat")
     parser.add_argument("--crouch", action="store_true", help="begin in a crouch instead of standing")
     parser.add_argument("--seed", type=int, default=0, help="seed of the sensors' noise (default 0)")

@@ -29,7 +29,10 @@ class PostureReader:
         self._rates = np.array([joint.dofadr[0] for joint in hinges])
         self._objects = list(OBJECTS[humanoid.scene])
         self.description = BodyDescribed(
-            scene=humanoid.scene, joints=[joint.name for joint in hinges], objects=self._objects
+            scene=humanoid.scene,
+            joints=[joint.name for joint in hinges],
+            objects=self._objects,
+            robot=humanoid.body.name,
         )
 
     def read(self) -> PostureTruth:

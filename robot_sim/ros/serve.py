@@ -28,7 +28,7 @@ LONGEST_SETTLING = 10.0  # s, simulated; limit for simulating a robot that may r
 
 def build_humanoid(options: RobotOptions) -> Humanoid:
     """Build a humanoid for these options; one that may rest is simulated until it rests."""
-    built = Humanoid(options.scene, seed=options.seed)
+    built = Humanoid(options.scene, seed=options.seed, robot=options.robot)
     built.may_rest = options.may_rest
     built.reset(height=CROUCH if options.crouch else None)
     while built.may_rest and not built.is_resting and built.time < LONGEST_SETTLING:
@@ -77,7 +77,7 @@ def serve_robot(options: RobotOptions, humanoid: Humanoid | None = None) -> None
         node.inboxes += controls.inboxes
         view = _open_view(humanoid, options.port) if options.view else None
         print(
-            f"humanoid stands in {options.namespace} at {options.rtf:g} times real time; Ctrl-C ends it",
+            f"{humanoid.body.name} stands in {options.namespace} at {options.rtf:g} times real time; Ctrl-C ends it",
             flush=True,
         )
     try:

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from robot_sim.model.dimensions import Dimensions
 from robot_sim.walking.planar import clamp
-from robot_sim.walking.walker import Walker
+from robot_sim.walking.walking_controller import WalkingController
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,16 +19,16 @@ class HeightLimits:
 
 
 class BodyHeight:
-    """The controller of the pelvis' height; before walking it raises a crouching robot.
+    """The controller of the pelvis' height, at most `stance` (m); before walking it raises a crouching robot.
 
     Attributes:
         rate: commanded velocity of the body, m/s, upwards.
     """
 
-    def __init__(self, walker: Walker, size: Dimensions, limits: HeightLimits) -> None:
+    def __init__(self, walker: WalkingController, stance: float, limits: HeightLimits) -> None:
         self._walker = walker
         self._limits = limits
-        self._stance = size.stance_height
+        self._stance = stance
         self.rate = 0.0
 
     @property

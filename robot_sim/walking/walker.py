@@ -9,10 +9,11 @@ from robot_sim.walking.footsteps import Command
 from robot_sim.walking.gait import Gait, Phase
 from robot_sim.walking.sensing import Sensing
 from robot_sim.walking.walker_parameters import WalkerParameters
+from robot_sim.walking.walking_controller import WalkingController
 from robot_sim.walking.whole_body import WholeBody
 
 
-class Walker:
+class Walker(WalkingController):
     """The controller that balances and walks a humanoid; make a new one whenever the state in `data` was replaced.
 
     Args:
@@ -43,6 +44,16 @@ class Walker:
         return self.stands and self.gait.is_idle
 
     @property
+    def steps(self) -> int:
+        """Touchdowns so far."""
+        return self.gait.steps
+
+    @property
+    def goal_reached(self) -> bool:
+        """Whether the last Goal was reached and no command has come since."""
+        return self.gait.goal_reached
+
+    @property
     def height(self) -> float:
         """Height of the pelvis above the floor that is held, m."""
         return self._whole_body.height
@@ -57,8 +68,9 @@ class Walker:
         return self._whole_body.gains
 
     @gains.setter
-    def gains(self, gains: BalanceGains) -> None:
-        self._whole_body.gains = gains
+    def gains(self, gains: BalanceGains | None) -> None:
+        if gains is not None:
+            self._whole_body.gains = gains
 
     def follow(self, command: Command) -> None:
         """Walk to a Goal or at a Velocity; None stops."""

@@ -36,12 +36,13 @@ class RobotTruth(Event):
 class BodyDescribed(Event):
     """The names of the joints and objects in PostureTruth, in the order of its lists; only in recorded runs.
 
-    `scene` is a scene of robot_sim.
+    `scene` and `robot` are a scene and a robot of robot_sim.
     """
 
     scene: str
     joints: list[str]
     objects: list[str]
+    robot: str = "humanoid"
 
 
 class PostureTruth(Event):

@@ -8,12 +8,17 @@ import mujoco
 import numpy as np
 
 from autograder.recording.replay.recording import Posture, Recording, UnusableRecording
+from robot_sim.body import MissingParts
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.scenes import SCENES
 
 
 class RecordedBody:
-    """A humanoid that can be set to the postures of a recording."""
+    """A humanoid that can be set to the postures of a recording.
+
+    Raises:
+        UnusableRecording: the recording was made with another robot or scene, or packages of its robot are missing.
+    """
 
     def __init__(self, recording: Recording) -> None:
         scene = recording.about["scene"]
@@ -21,7 +26,10 @@ class RecordedBody:
             raise UnusableRecording(
                 f"{recording.path} has the unknown scene {scene[:40]!r}; the known scenes are {', '.join(SCENES)}"
             )
-        self.humanoid = Humanoid(scene)
+        try:
+            self.humanoid = Humanoid(scene, robot=recording.about.get("robot") or "humanoid")
+        except (ValueError, MissingParts) as error:
+            raise UnusableRecording(f"{recording.path}: {error}") from None
         model = self.humanoid.model
         known = {model.joint(index).name for index in range(model.njnt)}
         if other := sorted({*recording.joints, *recording.postures[0].objects} - known):

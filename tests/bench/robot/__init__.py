@@ -10,7 +10,8 @@ from bench.robot.balance import Crouches, Estimates, Pushes, Terrain
 from bench.robot.hands import Carries, Grasps, HandPoses, Reaches
 from bench.robot.speed import Speed
 from bench.robot.trial import Summary, Trial
-from bench.robot.walking import Goals, Limits, Servo, Soak, Stops
+from bench.robot.walking import Goals, Limits, Servo, Soak, Speeds, Stops
+from robot_sim.body import MissingParts, body_named
 
 TRIALS: dict[str, Trial] = {
     "goals": Goals(),
@@ -18,7 +19,10 @@ TRIALS: dict[str, Trial] = {
     "stops": Stops(),
     "servo": Servo(),
     "soak": Soak(),
+    "speeds": Speeds("humanoid"),
     "pushes": Pushes(),
+    "g1_speeds": Speeds("g1"),
+    "g1_pushes": Pushes("g1"),
     "terrain": Terrain(),
     "estimates": Estimates(),
     "crouches": Crouches(),
@@ -40,12 +44,22 @@ def run_trials(names: Iterable[str] | None = None, *, quick: bool = False, jobs:
 
     Raises:
         ValueError: a name is not known; the message lists the known ones.
+        MissingParts: a trial of an optional robot is named, and the robot's packages are not installed.
     """
-    names = list(TRIALS) if names is None else list(names)
+    names = _possible_trials() if names is None else list(names)
     for name in names:
         if name not in TRIALS:
             raise ValueError(f"trial {name!r} is not known; choose from {', '.join(TRIALS)}")
     return [row for name in names for row in run_trial(TRIALS[name], quick, 1 if name == "speed" else jobs)]
+
+
+def _possible_trials() -> list[str]:
+    """Return the names of all trials, without those of an optional robot that is not installed."""
+    try:
+        body_named("g1")
+    except MissingParts:
+        return [name for name in TRIALS if not name.startswith("g1_")]
+    return list(TRIALS)
 
 
 def run_trial(trial: Trial, quick: bool, jobs: int) -> list[Summary]:

@@ -38,22 +38,25 @@ class Pushes(Trial):
     """Push the torso from any direction, standing and walking, and from the side, where walking is weakest."""
 
     DURATION = 0.1  # s
-    REFERENCE: ClassVar = {  # survivals of 32 for gait, impulse in N·s
-        ("standing", 10): 32,
-        ("standing", 14): 32,
-        ("standing", 18): 31,
-        ("walking", 10): 31,
-        ("walking", 14): 27,
-        ("walking", 18): 20,
-        ("walking, from the side", 10): 29,
-        ("walking, from the side", 14): 29,
+    GAITS = ("standing", "walking", "walking, from the side")
+    REFERENCE: ClassVar = {  # survivals of 32 for each gait, with 10, 14, 18 N·s
+        "humanoid": ((32, 32, 31), (31, 27, 20), (29, 29)),
+        "g1": ((32, 32, 32), (32, 32, 32), (32, 32, 32)),
     }
+
+    def __init__(self, robot: str = "humanoid") -> None:
+        self._robot = robot
+        self._reference = {
+            (gait, impulse): survivals
+            for gait, of_impulses in zip(self.GAITS, self.REFERENCE[robot], strict=True)
+            for impulse, survivals in zip((10, 14, 18), of_impulses, strict=False)
+        }
 
     def cases(self, quick: bool) -> list[tuple[str, int, int]]:
         """Return gait, impulse (N·s) and seed."""
         return [
             (gait, impulse, seed)
-            for gait, impulse in self.REFERENCE
+            for gait, impulse in self._reference
             for seed in range(32)
             if not quick or (seed < 6 and impulse == 10)
         ]
@@ -62,7 +65,7 @@ class Pushes(Trial):
         """Push once at a random moment from a random direction; it survives if it is up four seconds later."""
         gait, impulse, seed = case
         chance = random.Random(seed)
-        humanoid = Humanoid()
+        humanoid = Humanoid(robot=self._robot)
         simulate(humanoid, 0.5)
         if gait.startswith("walking"):
             humanoid.walk_velocity(0.25, 0.0, 0.0)
@@ -77,10 +80,16 @@ class Pushes(Trial):
 
     def summarize(self, runs: Sequence[Run]) -> list[Summary]:
         """Return one row for each gait and impulse."""
-        groups = {kind: [run for run in runs if run.case[:2] == kind] for kind in self.REFERENCE}
+        groups = {kind: [run for run in runs if run.case[:2] == kind] for kind in self._reference}
         return [
-            share_of(f"push {kind[1]} N·s in {self.DURATION} s, {kind[0]}", group, "stay up", of_32, 32)
-            for (kind, of_32), group in zip(self.REFERENCE.items(), groups.values(), strict=True)
+            share_of(
+                f"{self._robot}: push {kind[1]} N·s in {self.DURATION} s, {kind[0]}",
+                group,
+                "stay up",
+                of_32,
+                32,
+            )
+            for (kind, of_32), group in zip(self._reference.items(), groups.values(), strict=True)
             if group
         ]
 

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 
-from robot_sim.model.dimensions import Dimensions
 from robot_sim.walking.body_height import BodyHeight, HeightLimits
 from robot_sim.walking.planar import clamp
 from robot_sim.walking.walker import Walker
@@ -184,8 +183,10 @@ class PhasedHeight(BodyHeight):
         before_tick: called with dt (s) before each tick, for example to update an estimate of the state.
     """
 
-    def __init__(self, walker: Walker, size: Dimensions, limits: HeightLimits) -> None:
-        super().__init__(walker, size, limits)
+    _walker: Walker
+
+    def __init__(self, walker: Walker, stance: float, limits: HeightLimits) -> None:
+        super().__init__(walker, stance, limits)
         self.change: HeightChange | None = None
         self.before_tick: Callable[[float], object] = lambda dt: None
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from robot_sim.arms.arm_chain import relaxed_arm
 from robot_sim.arms.inverse_kinematics import rotation_vector
-from robot_sim.arms.joint_trajectory import JointTrajectory
+from robot_sim.arms.joint_trajectory import MOVABLE, JointTrajectory
 from robot_sim.arms.upper_body import UpperBody
 from robot_sim.model.joint_names import WAIST, arm_joints
 from robot_sim.model.side import Side
@@ -145,7 +145,7 @@ class ReachingUpperBody(UpperBody):
     """The controller of waist, head and arms, which can also move a hand to a target."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        super().__init__(model, data)
+        super().__init__(model, data, MOVABLE)
         self._model, self._data = model, data
         self._reaches: dict[Side, Reach] = {}
 

@@ -8,10 +8,10 @@ from bench.robot.height_change import HeightChange, HeightPhase, PhasedHeight
 from bench.robot.reach import HandTarget, Reach, ReachingUpperBody
 from bench.robot.state_estimate import StateEstimate
 from robot_sim.humanoid import Humanoid
+from robot_sim.humanoid_body import HumanoidBody
 from robot_sim.model.side import Side
 from robot_sim.walking.body_height import HeightLimits
 from robot_sim.walking.footsteps import Command
-from robot_sim.walking.walker import Walker
 
 
 class TrialHumanoid(Humanoid):
@@ -47,7 +47,7 @@ class TrialHumanoid(Humanoid):
 
     def stand_up(self) -> HeightChange:
         """Rise from any crouch to the stance; otherwise like `crouch_to`."""
-        return self.crouch_to(self._parameters.dimensions.stance_height)
+        return self.crouch_to(self.body.stance_height(self.model))
 
     @property
     def body_phase(self) -> HeightPhase | None:
@@ -67,9 +67,9 @@ class TrialHumanoid(Humanoid):
         super()._take_control()
         if self._estimates_state:
             self._estimate = StateEstimate(self.model, self.data, self._imu)
-            state = self._estimate.data
-            self._walker = Walker(self.model, self.data, state, self._trunk, self._parameters)
-        self._height = PhasedHeight(self._walker, self._parameters.dimensions, HeightLimits())
+        state = self._estimate.data if self._estimate else None
+        self._walker = walker = HumanoidBody().walker(self.model, self.data, state)
+        self._height = PhasedHeight(walker, self.body.stance_height(self.model), HeightLimits())
         if self._estimate:
             self._height.before_tick = self._estimate.tick
         self._upper_body = ReachingUpperBody(self.model, self.data)

@@ -146,6 +146,59 @@ class Limits(Trial):
         return [summary("commands beyond the limits", runs, measured, reference)]
 
 
+class Speeds(Trial):
+    """Command velocities that a robot can walk at, and measure what it walks: the same for every robot."""
+
+    ASKED: ClassVar = {  # m/s, m/s, rad/s
+        "ahead": ((0.1, 0.0, 0.0), (0.25, 0.0, 0.0), (0.4, 0.0, 0.0)),
+        "back": ((-0.2, 0.0, 0.0),),
+        "left": ((0.0, 0.1, 0.0),),
+        "turning": ((0.0, 0.0, 0.4),),
+    }
+    AXIS: ClassVar = {"ahead": 0, "back": 0, "left": 1, "turning": 2}
+    MEASURED_TIME = 10.0  # s
+    MAX_ERROR_RATIO = 0.15  # of the velocity
+
+    def __init__(self, robot: str) -> None:
+        self._robot = robot
+
+    def cases(self, quick: bool) -> list[tuple[str, Twist]]:
+        """Return directions and velocities."""
+        return [(way, twist) for way, twists in self.ASKED.items() for twist in twists]
+
+    def attempt(self, case: tuple[str, Twist]) -> Attempt:
+        """Walk for 2 s, then measure."""
+        way, twist = case
+        humanoid = Humanoid(robot=self._robot)
+        humanoid.walk_velocity(*twist)
+        simulate(humanoid, 2.0)
+        forward = left = turned = 0.0
+        last = humanoid.base_pose()
+        for _ in range(round(self.MEASURED_TIME / 0.02)):
+            simulate(humanoid, 0.02)
+            pose = humanoid.base_pose()
+            dx, dy = (pose.position - last.position)[:2].tolist()
+            forward += math.cos(pose.yaw) * dx + math.sin(pose.yaw) * dy
+            left += math.cos(pose.yaw) * dy - math.sin(pose.yaw) * dx
+            turned += wrap(pose.yaw - last.yaw)
+            last = pose
+        asked = twist[self.AXIS[way]]
+        walked = (forward, left, turned)[self.AXIS[way]] / self.MEASURED_TIME
+        fair = abs(walked - asked) <= self.MAX_ERROR_RATIO * abs(asked)
+        return humanoid, "" if fair else f"walked {walked:.3f}", {"asked": asked, "walked": walked}
+
+    def summarize(self, runs: Sequence[Run]) -> list[Summary]:
+        """Return one row for each direction."""
+        rows = []
+        for way in self.ASKED:
+            ours = [run for run in runs if run.case[0] == way]
+            pairs = ", ".join(f"{run.values['asked']:g} → {run.values['walked']:.2f}" for run in ours)
+            unit = "rad/s" if way == "turning" else "m/s"
+            title = f"{self._robot}: asked and walked, {way}"
+            rows.append(summary(title, ours, f"{pairs} {unit}", f"within {self.MAX_ERROR_RATIO:.0%}"))
+        return rows
+
+
 class Stops(Trial):
     """Stop at a random moment of a random walk."""
 

@@ -28,6 +28,7 @@ FLASHING = 1.2  # s, in the film of the trip
 @pytest.fixture
 def stage(monkeypatch: pytest.MonkeyPatch) -> Stage:
     monkeypatch.setattr(lab.client.topics, "scene", lambda: "flat")
+    monkeypatch.setattr(lab.client.topics, "robot", lambda: "humanoid")
     return Stage(monkeypatch)
 
 

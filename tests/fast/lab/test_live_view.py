@@ -20,7 +20,7 @@ class Robot:
     """What the lab knows of a robot, without ROS: the height of its body, or the error because it has ended."""
 
     def __init__(self) -> None:
-        self.scene = "flat"
+        self.scene, self.name = "flat", "humanoid"
         self.height = 0.7
         self.error: NoRobotError | None = None
         self.taken = False
@@ -47,19 +47,23 @@ def robot(monkeypatch: pytest.MonkeyPatch) -> Iterator[Robot]:
         def close(self) -> None:
             pass
 
-    def body(scene: str) -> SimpleNamespace:
+    def body() -> SimpleNamespace:
         return SimpleNamespace(
-            scene=scene, model=SimpleNamespace(nq=7), data=SimpleNamespace(qpos=np.zeros(7))
+            scene=robot.scene,
+            body=SimpleNamespace(name=robot.name),
+            model=SimpleNamespace(nq=7),
+            data=SimpleNamespace(qpos=np.zeros(7)),
         )
 
     fakes = {
         "odometry": lambda: None,
         "scene": lambda: robot.scene,
+        "robot": lambda: robot.name,
         "mode": lambda: "OFF",
         "pose": lambda: "x",
     }
     monkeypatch.setattr(live_view, "topics", SimpleNamespace(**fakes))
-    monkeypatch.setattr(live_view, "Humanoid", body)
+    monkeypatch.setattr(live_view, "body_to_draw", body)
     monkeypatch.setattr(live_view, "View", View)
     monkeypatch.setattr(live_view, "set_current_posture", robot.set_posture)
     monkeypatch.setattr(live_view, "is_notebook_of_a_lab", lambda: True)

@@ -1,0 +1,55 @@
+"""An extra of the self-check: the checks of an exercise, with a robot that its program was not written for."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from autograder.authoring.checks import MAY_REST, Scenario
+from autograder.engine.exercise import Exercise
+from robot_sim.body import body_named
+from ros_runtime.course_error import CourseError
+
+WALKING_EXERCISES = (
+    *("walk_to", "walk_client", "cancellable_walk", "cancel_client"),
+    *("navigate_to_pose", "battery_guard"),
+)
+
+
+class NotOnThisRobot(CourseError):
+    """The exercise cannot be checked with that robot; the message says why."""
+
+
+def require_robot(robot: str, exercise: str) -> None:
+    """Require that an exercise can be checked with this robot.
+
+    Raises:
+        NotOnThisRobot: it cannot.
+        MissingParts: packages of the robot are not installed.
+    """
+    if exercise not in WALKING_EXERCISES:
+        raise NotOnThisRobot(
+            f"{exercise} cannot be checked with the robot {robot}, which only walks; the exercises are "
+            f"{', '.join(WALKING_EXERCISES)}"
+        )
+    try:
+        body_named(robot)
+    except ValueError as error:
+        raise NotOnThisRobot(str(error)) from None
+
+
+def with_robot(robot: str, exercise: Exercise) -> Exercise:
+    """Let the robot of all scenarios be another one, and the checks be worth no points; return the exercise."""
+    changed: dict[Scenario, Scenario] = {}
+    for check in exercise.checks:
+        check.points = 0
+        check.on = tuple(changed.setdefault(each, _with_robot(robot, each)) for each in check.on)
+    return exercise
+
+
+def _with_robot(robot: str, scenario: Scenario) -> Scenario:
+    if scenario.robot is None:
+        return scenario
+    options = [
+        option for option in scenario.robot if option != MAY_REST
+    ]  # the clock then suits a robot that moves
+    return replace(scenario, robot=("--robot", robot, *options))
