@@ -24,7 +24,7 @@ NO_PERMISSION = (
 
 def error_exit(console: Console, reason: object, status: int) -> typer.Exit:
     """Print the reason in red, and return the exception to raise."""
-    console.print(str(reason), style="red", markup=False)
+    console.print(str(reason), style="red", markup=False, soft_wrap=True)
     return typer.Exit(status)
 
 

@@ -8,8 +8,8 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import typer
-from rich.console import Console
 
+from autograder.report.console import LineConsole
 from course_cli.ending import COMMAND_FAILED, error_exit
 from course_cli.work_folder import work_folder
 from ros_cli.real_ros2 import path_with_ros2
@@ -37,7 +37,7 @@ def lab(context: typer.Context) -> None:
         reason = (
             f"your notebooks cannot be saved: {error}.\nNext: COURSE_WORK=/a/folder/of/yours ./course lab"
         )
-        raise error_exit(Console(), reason, COMMAND_FAILED) from error
+        raise error_exit(LineConsole(), reason, COMMAND_FAILED) from error
     # Terminals start no login shell, because /etc/profile would remove `ros2` from the PATH.
     terminals = {"shell_command": [os.environ.get("SHELL") or "bash"]}
     command = [
@@ -61,7 +61,7 @@ def _server() -> str:
         reason = (
             f"JupyterHub started this command, but the course's environment lacks jupyterhub.\nNext: {line}"
         )
-        raise error_exit(Console(soft_wrap=True), reason, COMMAND_FAILED)
+        raise error_exit(LineConsole(), reason, COMMAND_FAILED)
     return "jupyterhub.singleuser"
 
 

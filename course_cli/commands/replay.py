@@ -17,6 +17,7 @@ from autograder.recording.replay.recording import (
     span_of,
 )
 from autograder.recording.replay.text import line, time_line, title
+from autograder.report.console import LineConsole
 from course_cli.ending import COMMAND_FAILED, UNUSABLE, error_exit
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
@@ -44,7 +45,7 @@ def replay(
     port: Annotated[int, typer.Option(help="the web view's port (default: the first free from 8080 on)")] = 0,
 ) -> None:
     """Show a recorded arena: in the web view, as a film, or as text."""
-    console = Console(highlight=False)
+    console = LineConsole()
     try:
         if film_file:
             require_known_format(film_file)
