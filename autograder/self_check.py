@@ -23,6 +23,7 @@ from autograder.hand_in_notice import hidden_checks_notice, saved_work_notice
 from autograder.isolation.availability import available_isolation
 from autograder.lab_hour import share, unshare
 from autograder.recording.kept import Recordings, keep
+from autograder.report.console import LineConsole
 from autograder.report.running import RunningLine
 from autograder.report.table import grade_table, print_beginning, print_retry, print_verdict, summary
 from ros_runtime.course_error import CourseError
@@ -245,10 +246,9 @@ def _keep_recordings(console: Console, folder: Path, recordings: Recordings) -> 
 def _console() -> Console:
     """A console with coloured text; rich's own HTML for notebooks would separate all lines and cut off long ones."""
     in_notebook = Console().is_jupyter
-    return Console(
-        highlight=False,
+    return LineConsole(
         force_jupyter=False,
         force_terminal=in_notebook or None,
         color_system="standard" if in_notebook else "auto",
-        width=NOTEBOOK_WIDTH if in_notebook else None,
+        **({"width": NOTEBOOK_WIDTH} if in_notebook else {}),
     )

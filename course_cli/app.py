@@ -16,9 +16,9 @@ from importlib.util import find_spec
 from typing import Any
 
 import typer
-from rich.console import Console
 from typer.core import TyperGroup
 
+from autograder.report.console import LineConsole
 from course_cli.ending import user_message
 from ros_runtime.course_error import CourseError
 from ros_runtime.project import COURSE, PROJECT
@@ -146,7 +146,7 @@ class _Course(TyperGroup):
         try:
             return super().invoke(ctx)
         except CourseError as error:
-            Console().print(str(error), style="red", markup=False, highlight=False, soft_wrap=True)
+            LineConsole().print(str(error), style="red", markup=False)
             raise typer.Exit(error.exit_status) from error
 
 

@@ -6,6 +6,7 @@ import hashlib
 import json
 import shutil
 from pathlib import Path
+from typing import Any
 
 from ros_runtime.project import COURSE, PROJECT
 from ros_runtime.self_checks import read_progress_file
@@ -45,6 +46,15 @@ def keep_work(course: Path = COURSE, originals: Path = ORIGINALS) -> list[str]:
     if stored != released:
         _copy(originals, state)
     return sentences
+
+
+def _jupyter_server_extension_points() -> list[dict[str, str]]:
+    return [{"module": __name__}]
+
+
+def _load_jupyter_server_extension(server: Any) -> None:
+    """Copy each notebook that JupyterLab saves. As a setting, the hook would be validated twice, with a warning."""
+    server.contents_manager.register_post_save_hook(keep_saved)
 
 
 def keep_saved(os_path: str, **_: object) -> None:

@@ -31,16 +31,22 @@ make_environment() {
 
 say() { echo "course: $*" >&2; }
 
+# Say which step begins, and keep its name, which ends at the parenthesis, for `logged`.
+begin() {
+    step=${1%% (*}
+    say "$1"
+}
+
 new_environment() {
     find_python || return 1
     ensure_system_packages "$(debian_name)-venv" "$(debian_name)-dev"
-    say "making the environment in ${toolkit}.venv with $("$python" --version) (1.3 GB; once, about a minute, longer on a busy machine; log: ${toolkit}build/setup.log)"
+    begin "making the environment in ${toolkit}.venv with $("$python" --version) (1.3 GB; once, about a minute, longer on a busy machine; log: ${toolkit}build/setup.log)"
     rm -rf "$venv"
     { logged "$python" -m venv "$venv" && install_everything; } || explain_failure
 }
 
 update_environment() {
-    say "files that the environment depends on have changed; updating ${toolkit}.venv"
+    begin "updating ${toolkit}.venv (files that the environment depends on have changed)"
     mv "$stamp" "$stamp.before"
     install_everything || { mv "$stamp.before" "$stamp"; explain_failure; }
 }
@@ -83,6 +89,7 @@ install_everything() {
 # Arenas start hundreds of Python processes that must not write files; without compiled files each start takes twice as
 # long. A file that cannot be compiled (a template, an old test) is ignored.
 compile_bytecode() {
+    begin "compiling the Python files"
     local packages=("$root"/{autograder,course_cli,lab,robot_sim,ros_cli,ros_runtime})
     logged env -u PYTHONDONTWRITEBYTECODE "$venv/bin/python" -m compileall -q -j 0 "$venv/lib" "${packages[@]}" || true
 }
@@ -103,9 +110,9 @@ install_with_uv() {
         --constraints "$venv/constraints.txt" --build-constraints "$venv/constraints.txt")
     for extra in ${1//,/ }; do extras+=(--extra "$extra"); done
     logged "$venv/bin/python" -m pip install -c "$venv/constraints.txt" uv || return 1
-    say "installing packages (the first time a download of 300 MB: seconds to minutes, depending on your network)"
+    begin "installing packages (the first time a download of 300 MB: seconds to minutes, depending on your network)"
     with_uv -r "$root/pyproject.toml" "${extras[@]}" "${build_tools[@]}" || return 1
-    say "building humanoid_interfaces (about a minute; unchanged sources are not built again)"
+    begin "building humanoid_interfaces (about a minute; unchanged sources are not built again)"
     with_uv --no-deps --reinstall-package humanoid-course "${isolation[@]}" --editable "$root"
 }
 
@@ -115,19 +122,19 @@ with_uv() {
 }
 
 install_with_pip() {
-    say "uv could not install the packages; trying pip (2 to 6 minutes)"
+    begin "installing packages with pip (uv could not install them; 2 to 6 minutes)"
     local pip=("$venv/bin/python" -m pip install) PIP_CONSTRAINT=$venv/constraints.txt
     export PIP_CONSTRAINT PIP_BUILD_CONSTRAINT=$PIP_CONSTRAINT
     [ "$ros" = apt ] || logged "${pip[@]}" "${build_tools[@]}" || return 1
     logged "${pip[@]}" "${isolation[@]}" --editable "$root[$1]"
 }
 
-# Run a command with its output in the log, and say every 20 s that the set-up goes on.
+# Run a command with its output in the log, and say every 20 s which step goes on.
 logged() {
     local ticker status=0
     echo "+ $*" >>"$log"
     while sleep 20 >/dev/null 2>&1 && kill -0 $$ 2>/dev/null; do
-        say "the set-up goes on ($((SECONDS - started)) s so far)"
+        say "still $step ($((SECONDS - started)) s so far)"
     done 9>&- &
     ticker=$!
     "$@" >>"$log" 2>&1 </dev/null 9>&- || status=$?

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -16,11 +14,10 @@ from autograder.engine.exercise import essay_names, exercise_names, scenario_fil
 from autograder.engine.submission import UnusableSubmission, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.hand_in_notice import hidden_checks_notice
+from autograder.report.console import LineConsole
 from course_cli.options import CourseOption, JobsOption
 from course_cli.own_work import own_work
 from ros_runtime.course_error import COMMAND_FAILED, NOT_GRADED
-
-FILE_WIDTH = 200  # characters, of lines that go to a file or a pipe; it breaks no path
 
 
 def check(
@@ -52,8 +49,7 @@ def check(
     course: CourseOption = None,
 ) -> None:
     """Check your own solution of an exercise."""
-    is_file = not sys.stdout.isatty() and "COLUMNS" not in os.environ
-    console = Console(highlight=False, width=FILE_WIDTH if is_file else None)
+    console = LineConsole()
     path, left_aside = own_work(exercise, file)
     for line in left_aside:
         console.print(f"left aside: {line}", style="yellow", markup=False)

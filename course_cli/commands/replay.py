@@ -11,6 +11,7 @@ from rich.console import Console
 from autograder.recording.replay.film import film, format_of
 from autograder.recording.replay.recording import Recording, Span, require_postures, span_of
 from autograder.recording.replay.text import line, time_line, title
+from autograder.report.console import LineConsole
 from ros_runtime.course_error import CommandFailed, CourseError
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
@@ -38,7 +39,7 @@ def replay(
     port: Annotated[int, typer.Option(help="the web view's port (default: the first free from 8080 on)")] = 0,
 ) -> None:
     """Show a recorded arena: in the web view, as a film, or as text."""
-    console = Console(highlight=False)
+    console = LineConsole()
     try:
         kind = format_of(film_file) if film_file else "WEBP"
         recording = Recording.read(file)

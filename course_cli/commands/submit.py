@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.text import Text
 
 from autograder.engine.exercise import essay_names, file_names
 from autograder.engine.submission import Submission, UnusableSubmission, read_submission
 from autograder.hand_in_notice import hidden_checks_notice
+from autograder.report.console import LineConsole
 from course_cli.options import CourseOption
 from course_cli.own_work import own_work
 from ros_runtime.project import WORK
@@ -34,7 +34,7 @@ def submit(
     course: CourseOption = None,
 ) -> None:
     """Write one file for each exercise to hand in, and print what it holds."""
-    console = Console(highlight=False)
+    console = LineConsole()
     if file and len(exercises) > 1:
         raise typer.BadParameter("--file is the file of one exercise: name that exercise alone")
     out = out or _default_folder()
@@ -46,9 +46,7 @@ def submit(
         target = _target(path, exercise, out)
         before = _fingerprint(target, exercise)
         _copy(path, exercise, target)
-        console.print(
-            f"{target}: {_contents(submission)}, as saved {_saved(path)}", markup=False, soft_wrap=True
-        )
+        console.print(f"{target}: {_contents(submission)}, as saved {_saved(path)}", markup=False)
         console.print(
             f"  fingerprint {submission.fingerprint}: your grade's page shows it again", markup=False
         )
@@ -56,8 +54,8 @@ def submit(
             console.print(
                 f"  it replaces another program, fingerprint {before}", style="yellow", markup=False
             )
-        console.print("  ", _last_check(submission), soft_wrap=True)
-    console.print(f"Next: hand in what is in {out}/, unchanged.", markup=False, soft_wrap=True)
+        console.print("  ", _last_check(submission))
+    console.print(f"Next: hand in what is in {out}/, unchanged.", markup=False)
 
 
 def _default_folder() -> Path:

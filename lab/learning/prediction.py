@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from html import escape
-from textwrap import fill
 
 import ipywidgets
 from IPython.display import display
@@ -17,8 +16,6 @@ from lab.learning.question import (
     stored_letter,
     with_shuffled_choices,
 )
-
-WIDTH = 80  # characters; Jupyter breaks longer lines in the middle of a word
 
 
 def predict(chapter: str, number: int) -> Prediction:
@@ -81,7 +78,7 @@ class Prediction:
             return
         choice = self.question.choice(self.letter)
         print(f"You predicted {self.letter}: {choice.text}")
-        print(fill(f"{'Right.' if choice.right else 'It went differently.'} {choice.why}", WIDTH))
+        print("Right." if choice.right else "It went differently.", choice.why)
 
     def _request(self) -> str:
         return (

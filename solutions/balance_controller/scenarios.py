@@ -71,6 +71,12 @@ def in_order(
             "listen": listen,
             "push": push,
         },
+        {
+            "describe": "describe_parameters",
+            "ask": "get_parameters",
+            "set_each": "set_parameters {values}",
+            "set_together": "set_parameters_atomically {values}",
+        },
     )
     if interrupt:
         stage.interrupt_node()

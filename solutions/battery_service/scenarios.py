@@ -32,6 +32,10 @@ def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
             "let_publish": let_publish,
             "wait": stage.wait,
         },
+        {
+            "ask": "{number} × get_battery_status",
+            "let_publish": "wait for {messages} × battery_state",
+        },
     )
     if interrupt:
         stage.interrupt_node()

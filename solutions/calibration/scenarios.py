@@ -102,6 +102,12 @@ def in_order(stage: Stage, steps: Steps, hears_bias: bool = True, interrupt: boo
             "listen": listen,
             "wait": stage.wait,
         },
+        {
+            "calibrate": "calibrate_imu",
+            "begin": "begin {number} × calibrate_imu",
+            "send": "begin another calibrate_imu",
+            "end": "wait for all answers",
+        },
     )
     if interrupt:
         stage.interrupt_node()

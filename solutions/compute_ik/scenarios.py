@@ -55,6 +55,13 @@ def in_order(
                 SetParametersAtomically.Request(parameters=_parameters(lengths))
             ),
         },
+        {
+            "ask": "compute_ik at once for each of {questions}",
+            "move_to": "move to the answer of compute_ik {question}",
+            "get": "get_parameters {names}",
+            "set": "set_parameters {lengths}",
+            "set_together": "set_parameters_atomically {lengths}",
+        },
     )
     if interrupt:
         stage.interrupt_node()

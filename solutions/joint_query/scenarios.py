@@ -47,6 +47,10 @@ def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
             "let_arrive": let_arrive,
             "wait": stage.wait,
         },
+        {
+            "ask": "get_joint_positions at once for each of {lists}",
+            "let_arrive": "wait for the messages",
+        },
     )
     if interrupt:
         stage.interrupt_node()

@@ -75,6 +75,14 @@ def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
             "wait": stage.wait,
             "settle": settle,
         },
+        {
+            "switch": "{number} × enable_motors data {on}",
+            "ask": "{number} × get_status",
+            "switch_and_ask": "{switches} × enable_motors data {on} and at once {questions} × get_status",
+            "switch_elsewhere": "another node publishes {on} on motor_power",
+            "publish_state": "the robot publishes robot_state: {published}",
+            "settle": "wait for the effect",
+        },
     )
     if interrupt:
         stage.interrupt_node()

@@ -30,7 +30,7 @@ class Remedy:
     see: str = ""
 
 
-# Remedies by a pattern in the student's traceback, the most specific pattern first.
+# Remedies by a pattern in the student's traceback, the most specific pattern first; \1 is its first group.
 _SIGNS: dict[str, Remedy] = {
     r"in send_response\n(?s:.*)^TypeError$": Remedy(
         "Your service callback{of} returned nothing, or something other than the response. End every branch with "
@@ -48,12 +48,17 @@ _SIGNS: dict[str, Remedy] = {
         "CancelResponse.ACCEPT; execute calls canceled() when it sees is_cancel_requested.",
         "07_cancel_and_preempt#m12-why",
     ),
-    r"^AssertionError: The '\w+' field must be a set or sequence": Remedy(
-        "That field is a list: give it a list with values of its type, such as [1.0].", WRONG_TYPE
+    r"^AssertionError: The '(\w+)' field must be a sub message of type '(\w+)'": Remedy(
+        r"The field \1 takes a message of the type \2, and got something else: None, if no message has arrived "
+        r"yet. Test `is None` first, and then leave \1 as it is.",
+        CRASHES,
     ),
-    r"^AssertionError: The '\w+' field must be": Remedy(
-        "A field got a value of the wrong type: give it the type that the interface names, such as 1.0 for a "
-        "float and True for a bool.",
+    r"^AssertionError: The '(\w+)' field must be a set or sequence": Remedy(
+        r"The field \1 is a list: give it a list with values of its type, such as [1.0].", WRONG_TYPE
+    ),
+    r"^AssertionError: The '(\w+)' field must be": Remedy(
+        r"The field \1 got a value of the wrong type: give it the type that the interface names, such as 1.0 for a "
+        "float and True for a bool, and never None.",
         WRONG_TYPE,
     ),
     r"^AttributeError: '\w+_FeedbackMessage' object has no attribute": Remedy(
@@ -164,7 +169,10 @@ def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
 def remedy_for_a_traceback(output: str) -> Remedy | None:
     """Return what to do about the last exception in a program's output, if it is a known one."""
     traceback = _last_traceback(output)
-    return next((remedy for sign, remedy in _SIGNS.items() if re.search(sign, traceback, re.MULTILINE)), None)
+    for sign, remedy in _SIGNS.items():
+        if found := re.search(sign, traceback, re.MULTILINE):
+            return Remedy(found.expand(remedy.help), remedy.see)
+    return None
 
 
 def end_in_words(run: Record, exited: ev.NodeExited) -> str:
@@ -193,7 +201,8 @@ def _with_place(remedy: Remedy, run: Record) -> Remedy:
     """Add the student's line that raised, if known, and the service whose request was being answered."""
     place = raised_in(_last_traceback(run.output("stderr")))
     where = f" It was raised in {place}." if place else ""
-    return Remedy(remedy.help.replace("{of}", _being_answered(run)) + where, remedy.see)
+    service = unanswered_service(run)
+    return Remedy(remedy.help.replace("{of}", f" of {service}" if service else "") + where, remedy.see)
 
 
 def _last_traceback(output: str) -> str:
@@ -201,11 +210,10 @@ def _last_traceback(output: str) -> str:
     return output.rpartition("Traceback (most recent call last):")[2]
 
 
-def _being_answered(run: Record) -> str:
-    """Return ' of get_status' for the first request that got no answer, '' if there is none."""
+def unanswered_service(run: Record) -> str:
+    """Return the service of the first request that got no answer, '' if there is none."""
     answered = {answer.call for answer in run.all(ev.ServiceAnswered)}
-    waiting = [asked.service for asked in run.all(ev.ServiceCalled) if asked.call not in answered]
-    return f" of {waiting[0]}" if waiting else ""
+    return next((asked.service for asked in run.all(ev.ServiceCalled) if asked.call not in answered), "")
 
 
 def _gave_up(run: Record) -> bool:

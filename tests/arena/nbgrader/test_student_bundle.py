@@ -275,19 +275,25 @@ def test_a_newer_archive_unpacked_over_the_students_work_keeps_it(unpacked, tmp_
 def test_jupyterlab_copies_a_notebook_when_it_is_saved(unpacked, tmp_path):
     course = shutil.copytree(unpacked, tmp_path / TOP)
     program = """
-import sys
-from jupyter_server.services.contents.filemanager import FileContentsManager
-from traitlets.config.loader import PyFileConfigLoader
-config = PyFileConfigLoader("jupyter_server_config.py", path="course_cli/jupyter").load_config()
-manager = FileContentsManager(root_dir=sys.argv[1], config=config)
-model = manager.get("exercises/patterns/patterns.ipynb")
+import asyncio
+from jupyter_server.serverapp import ServerApp
+server = ServerApp()
+server.initialize([], new_httpserver=False)
+model = asyncio.run(server.contents_manager.get("exercises/patterns/patterns.ipynb"))
 model["content"]["cells"][0]["source"] += " mine"
-manager.save(model, "exercises/patterns/patterns.ipynb")
+asyncio.run(server.contents_manager.save(model, "exercises/patterns/patterns.ipynb"))
 """
-    environment = {**os.environ, "PYTHONPATH": str(course / TOOLKIT)}
-    subprocess.run(
-        [sys.executable, "-c", program, str(course)], cwd=course / TOOLKIT, env=environment, check=True
+    toolkit = course / TOOLKIT
+    settings = {"PYTHONPATH": str(toolkit), "JUPYTER_CONFIG_PATH": str(toolkit / "course_cli/jupyter")}
+    ended = subprocess.run(
+        [sys.executable, "-c", program],
+        cwd=course,
+        env={**os.environ, **settings, "HOME": str(tmp_path)},
+        stderr=subprocess.PIPE,
+        text=True,
+        check=True,
     )
+    assert "UserWarning" not in ended.stderr
     assert " mine" in (course / ".kept/exercises/patterns/patterns.ipynb").read_text()
 
 

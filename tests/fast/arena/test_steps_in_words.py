@@ -37,6 +37,12 @@ def test_arguments_have_the_names_and_units_of_their_parameters(
     assert in_words(verb, act, arguments) == words
 
 
+def test_a_form_replaces_verb_and_names() -> None:
+    def ask(number: int, on: bool = True) -> None: ...
+
+    assert in_words("ask", ask, [3], "{number} × get_status {on}") == "3 × get_status True"
+
+
 def test_a_failure_has_the_words_of_the_arena() -> None:
     steps = [["go", "walk", 1.0], ["wait", 1.5]]
     planned = ev.StepsPlanned(t=0.0, words=["go “walk” x 1 m", "wait 1.5 s"])

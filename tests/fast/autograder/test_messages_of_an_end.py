@@ -38,7 +38,15 @@ NO_RETURN = said(
             "raised in line 21 of status.py, in on_request().",
         ),
         (said("AttributeError: 'Trigger_Response' object has no attribute 'text'"), "no field of that name"),
-        (said("AssertionError: The 'success' field must be of type 'bool'"), "a value of the wrong type"),
+        (
+            said("AssertionError: The 'success' field must be of type 'bool'"),
+            "The field success got a value of the wrong type",
+        ),
+        (
+            said("AssertionError: The 'battery' field must be a sub message of type 'BatteryState'"),
+            "The field battery takes a message of the type BatteryState, and got something else: None, if no message "
+            "has arrived yet. Test `is None` first",
+        ),
         (
             [
                 *said(

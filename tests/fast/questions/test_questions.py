@@ -315,11 +315,11 @@ def test_key_quotes_a_long_observation_in_part_and_its_steps_whole():
         load_exercise("motor_services", hidden=False).checks[0],
         "failed",
         expected="an answer",
-        observed=f"{'9' * 400}; steps: ask number 1",
+        observed=f"{'9' * 400}; steps: 1 × get_status",
         robot_time=3.14,
     )
     key = making._seen(verdict)
-    assert f"{'9' * 250}…; steps: ask number 1 (at 3.1 s)." in key
+    assert f"{'9' * 250}…; steps: 1 × get_status (at 3.1 s)." in key
 
 
 def test_a_change_after_which_nothing_works_is_not_asked(grader):

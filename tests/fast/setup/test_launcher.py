@@ -228,3 +228,20 @@ def test_an_archive_holds_what_the_environment_is_made_from(tmp_path: Path, part
             shutil.copy2(path, tmp_path / name)
     assert dry_run(tmp_path) == ["missing", dry_run(ROOT)[1]]
     assert (tmp_path / "LICENSE").exists()  # pyproject.toml names it
+
+
+def test_a_long_step_of_the_set_up_is_named_again(clone: Path) -> None:
+    program = """
+        started=$SECONDS
+        sleep() { command sleep 0.2; }
+        begin "building humanoid_interfaces (about a minute)"
+        logged bash -c "sleep 0.7"
+    """
+    (clone / "build").mkdir()
+    ran = subprocess.run(
+        ["bash", "-c", f"root={clone}\n. {clone}/setup/environment.sh\n{program}"],
+        stderr=subprocess.PIPE,
+        text=True,
+        check=True,
+    )
+    assert "course: still building humanoid_interfaces (0 s so far)" in ran.stderr.splitlines()
