@@ -13,6 +13,7 @@ from rich.console import Console
 
 from autograder.classroom.batch.collection import Work, collect
 from autograder.classroom.batch.version import checks_version
+from autograder.classroom.questions.formgrader import assignment_of, enter_questions
 from autograder.classroom.questions.making import Maker
 from autograder.classroom.questions.pages import EXAMINER, STUDENTS, TABLE, write_pages
 from autograder.classroom.questions.question import Sheet, keep, kept
@@ -36,6 +37,14 @@ def questions(
         list[str] | None, typer.Option("--student", help="only for this student (can be repeated)")
     ] = None,
     number: Annotated[int, typer.Option(min=1, max=6, help="questions for each student")] = 3,
+    nbgrader: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FOLDER",
+            help="also enter the questions, their keys and the answers in SUBMITTED into this nbgrader course, "
+            "such as graded/; give the points in Formgrader",
+        ),
+    ] = None,
     jobs: JobsOption = os.cpu_count() or 1,
     course: CourseOption = None,
 ) -> None:
@@ -72,6 +81,13 @@ def questions(
         f"{TABLE} have the keys",
         markup=False,
     )
+    if nbgrader:
+        marked = enter_questions(nbgrader, sheets, submitted, number)
+        console.print(
+            f"{marked} of {len(sheets)} students are marked; Formgrader, started in {nbgrader}, shows the others under "
+            f"Manual Grading > {assignment_of(exercise)}",
+            markup=False,
+        )
     raise typer.Exit(0 if asked else COMMAND_FAILED)
 
 

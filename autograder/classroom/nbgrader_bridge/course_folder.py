@@ -36,6 +36,7 @@ AUTOGRADE_PREPROCESSORS = [
 ]
 FEEDBACK_PREPROCESSORS = [
     "nbgrader.preprocessors.GetGrades",
+    f"{_BRIDGE}.feedback_page.WithoutKeys",
     "nbconvert.preprocessors.CSSHTMLHeaderPreprocessor",
     "nbconvert.preprocessors.sanitize.SanitizeHTML",
 ]

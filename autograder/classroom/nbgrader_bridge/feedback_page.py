@@ -1,4 +1,7 @@
-"""nbgrader's feedback page, whose list shows the title of each check; stock nbgrader shows "Test cell" for each."""
+"""nbgrader's feedback page, whose list shows the title of each check; stock nbgrader shows "Test cell" for each.
+
+A key that formgrader shows to the marker is not on the page.
+"""
 
 from __future__ import annotations
 
@@ -9,10 +12,12 @@ from typing import Any
 
 from nbconvert.exporters import HTMLExporter
 from nbformat import NotebookNode
+from nbgrader.preprocessors import NbGraderPreprocessor
 from traitlets.config import Config
 
 TEMPLATES = Path(__file__).parent / "templates"
 TEMPLATE = "checks_by_title"
+KEY = "key-"  # the beginning of the ids of cells that only the marker may see
 _POINTS = re.compile(r"\s*\(\d+ points?\)$")
 
 
@@ -33,6 +38,15 @@ class FeedbackPage(HTMLExporter):
         """Add the filter `check_title` for the template."""
         yield from super().default_filters()
         yield ("check_title", check_title)
+
+
+class WithoutKeys(NbGraderPreprocessor):
+    """Removes the cells that only the marker may see."""
+
+    def preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
+        """Remove them."""
+        nb.cells = [cell for cell in nb.cells if not cell.get("id", "").startswith(KEY)]
+        return nb, resources
 
 
 def check_title(cell: NotebookNode) -> str:

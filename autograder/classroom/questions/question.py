@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Literal
 
+from markupsafe import Markup, escape
+
 from autograder.atomic_file import write_atomically
+
+LETTERS = "abcdefgh"  # of a question's parts
 
 
 @dataclass(frozen=True)
@@ -30,6 +35,12 @@ class Question:
     situation: str
     parts: tuple[Part, ...]
 
+    def lettered(self, texts: Sequence[str]) -> list[str]:
+        """Return texts on the parts, with "(a) ", "(b) " … in front if there are several."""
+        return [
+            f"({letter}) {text}" if texts[1:] else text for letter, text in zip(LETTERS, texts, strict=False)
+        ]
+
 
 @dataclass(frozen=True)
 class Sheet:
@@ -40,6 +51,18 @@ class Sheet:
     program: str = ""
     questions: tuple[Question, ...] = ()
     note: str = ""
+
+
+def html_of(*texts: str) -> Markup:
+    """Return a paragraph for each text that is not empty, in which what is between backticks is code."""
+    return Markup("\n\n").join(Markup("<p>{}</p>").format(_with_code(text)) for text in texts if text)
+
+
+def _with_code(text: str) -> Markup:
+    pieces = enumerate(" ".join(text.split()).split("`"))
+    return Markup("").join(
+        Markup("<code>{}</code>").format(one) if place % 2 else escape(one) for place, one in pieces
+    )
 
 
 def keep(path: Path, sheet: Sheet, made_for: str) -> None:
