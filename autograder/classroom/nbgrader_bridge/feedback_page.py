@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from nbconvert.exporters import HTMLExporter
+from nbconvert.preprocessors import Preprocessor
 from nbformat import NotebookNode
-from nbgrader.preprocessors import NbGraderPreprocessor
+from traitlets import Bool
 from traitlets.config import Config
 
 TEMPLATES = Path(__file__).parent / "templates"
@@ -40,8 +41,10 @@ class FeedbackPage(HTMLExporter):
         yield ("check_title", check_title)
 
 
-class WithoutKeys(NbGraderPreprocessor):
+class WithoutKeys(Preprocessor):
     """Removes the cells that only the marker may see."""
+
+    enabled = Bool(True).tag(config=True)
 
     def preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
         """Remove them."""

@@ -154,14 +154,17 @@ def _sleeps_instead(program: StudentProgram, spin: ast.Call) -> Iterator[Change]
 
 
 def _sleeps_first(program: StudentProgram, spin: ast.Call) -> Iterator[Change]:
-    """A callback for messages sleeps, and the callbacks for requests and goals wait for the one thread."""
-    others = ", ".join(one.name for one in program.callbacks("service", "goal", "execute"))
-    for callback in program.callbacks("subscription", "timer") if others else ():
+    """A callback for messages sleeps, and everything else waits for the one thread."""
+    for callback in program.callbacks("subscription", "timer", "feedback"):
+        others = [
+            one.name for one in program.callbacks("service", "goal", "execute", "feedback") if one != callback
+        ]
         first = callback.body[1 if ast.get_docstring(callback) and len(callback.body) > 1 else 0]
         if isinstance(first, ast.Assign | ast.Expr):
             why = (
                 f"One thread runs all callbacks ({program.quoted(spin.lineno)}): while {callback.name} sleeps, all "
-                f"others have to wait ({others}), and what {callback.name} stores is late."
+                f"others have to wait ({', '.join(others) or 'also those for answers and results'}), and what "
+                f"{callback.name} stores is late."
             )
             edits: Edits = {first: f"{_import_time(program)}time.sleep({SLEEP_TIME}); {ast.unparse(first)}"}
             yield from _change(program, "executor", "sleeps_first", edits, why=why)

@@ -22,7 +22,7 @@ from autograder.engine.submission import Submission
 from autograder.engine.verdict import CheckVerdict
 
 MOST_CHANGES = 8  # changed copies that are graded for each kind of question
-MOST_RUNS = 3  # scenarios of the traced copy
+MOST_RUNS = 6  # scenarios of the traced copy
 ENOUGH_FAILED = 2  # failed checks that a key names; after them a changed copy is not graded further
 LONGEST_TEXT = 250  # characters of what a check expected or observed
 _CLAUSE = re.compile(r"(?:^clauses? |”\), )(\d+)")  # in a verdict's promise
@@ -68,9 +68,10 @@ class Maker:
 
     def _questions(self, program: StudentProgram, passed: set[str]) -> tuple[Question, ...]:
         """Choose one question of each kind, then changes, then moments, each about another line."""
+        offers = bool(program.callbacks("service", "execute"))
         of_moments = self._moments(program)
-        of_executor = self._effects(executor_changes(program), passed)
-        of_changes = self._effects(changes(program), passed)
+        of_executor = self._effects(executor_changes(program), passed, offers)
+        of_changes = self._effects(changes(program), passed, offers)
         chosen: dict[int, Question] = {}
         for source in (of_moments, of_executor, *[of_changes] * self.number, *[of_moments] * self.number):
             if len(chosen) < self.number:
@@ -92,7 +93,7 @@ class Maker:
                 continue
             yield from self._in_order(moments(program, run), _words)
 
-    def _effects(self, made: Iterable[Change], passed: set[str]) -> Iterator[Question]:
+    def _effects(self, made: Iterable[Change], passed: set[str], offers: bool) -> Iterator[Question]:
         """Grade changed copies, and yield questions about those that fail checks which the program itself passes.
 
         A change after which nothing works is left out, as there is little to explain.
@@ -106,7 +107,7 @@ class Maker:
                 one.status != "error" for one in after
             )
             if failed and is_sure:
-                yield _question(change, failed)
+                yield _question(change, failed, "a client" if offers else "the user, or the server,")
 
     def _verdicts(self, text: str, passed: set[str] | None = None) -> list[CheckVerdict]:
         """Grade a text; if it is that of a changed copy, until enough checks fail that `passed` before."""
@@ -146,10 +147,12 @@ def _words(question: Question) -> str:
     return f"{question.line} {[part.asked for part in question.parts]}"
 
 
-def _question(change: Change, failed: Sequence[CheckVerdict]) -> Question:
+def _question(change: Change, failed: Sequence[CheckVerdict], who: str) -> Question:
     """Return the question on a change after which these checks fail."""
     key = " ".join(filter(None, (*map(_seen, failed), change.why)))
-    asked = f"Suppose {change.supposed}. Which clause of the task would be broken, what would a client see, and why?"
+    asked = (
+        f"Suppose {change.supposed}. Which clause of the task would be broken, what would {who} see, and why?"
+    )
     return Question(change.kind, change.line, change.situation, (*change.first, Part(asked, key)))
 
 

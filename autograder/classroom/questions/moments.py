@@ -1,4 +1,4 @@
-"""Questions about moments of a recorded run: a cancel, an aborted goal, an answer to a request.
+"""Questions about moments of a recorded run: a cancel, received or sent, an aborted goal, an answer to a request.
 
 The run is that of the traced copy, so each key names the line that really acted. A question is made only if the reports
 leave no doubt: they name one line, in the time in question.
@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 from typing import Any
 
+from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.call import Call
 from autograder.authoring.evidence.fields import shown_fields
 from autograder.authoring.evidence.goal import ABORTED, CANCELED, Cancel, Goal
@@ -16,7 +17,7 @@ from autograder.authoring.evidence.robot_record import between
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.questions.question import Part, Question
 from autograder.classroom.questions.student_program import StudentProgram
-from autograder.classroom.questions.traced import SEEN, STOPS, Mark, marks
+from autograder.classroom.questions.traced import ASKS, SEEN, STOPS, Mark, marks
 from humanoid_interfaces.msg import RobotState
 
 STILL = 0.05  # m/s, below which the robot counts as standing
@@ -45,6 +46,7 @@ def moments(program: StudentProgram, run: Transcript) -> list[Question]:
     asked = [_cancel(program, run, one, reported) for one in run.cancels]
     asked += [_abort(program, run, one, reported) for one in run.goals]
     asked += [_answer(program, run, one, reported) for one in run.calls]
+    asked += [_request(program, run, one, reported) for one in run.all(ev.CancelReceived)]
     return [question for question in asked if question and len(question.parts) > 1]
 
 
@@ -124,6 +126,21 @@ def _answer(program: StudentProgram, run: Transcript, call: Call, reported: list
     return Question("moment", mark.line, f"{story} Your program answered {answer}.", parts)
 
 
+def _request(
+    program: StudentProgram, run: Transcript, cancel: ev.CancelReceived, reported: list[Mark]
+) -> Question | None:
+    """The only request of a client to cancel a goal: the line that sent it, and what led to that line."""
+    mark = _only(reported, 0.0, cancel.t, ASKS)
+    if not mark or len(run.all(ev.CancelReceived)) > 1:
+        return None
+    pressed = [one.t for one in run.all(ev.NodeSignalled) if one.t <= cancel.t]
+    story = f"Ctrl-C was pressed at {pressed[-1]:.1f} s, and " if pressed else ""
+    story = f"{story}the server of {cancel.action} received a request at {cancel.t:.1f} s to cancel its goal."
+    asked = "Which line of your program sent the request?"
+    parts = (Part(asked, f"{program.quoted(mark.line)}, at {mark.t:.1f} s."), *_why(program, mark.node))
+    return Question("moment", mark.line, f"In a run of your program {story}", parts)
+
+
 def _why_not_earlier(program: StudentProgram, node: ast.expr) -> str:
     """Say what decides when an expression is evaluated again; "" if the text does not show it."""
     (name, kind), loop = program.runs_for(node), program.loop(node)
@@ -137,11 +154,15 @@ def _why_not_earlier(program: StudentProgram, node: ast.expr) -> str:
 def _why(program: StudentProgram, node: ast.expr) -> list[Part]:
     """Ask for the condition that leads to an expression, and for the lines that store what it reads."""
     parts = []
-    condition, holds = program.condition(node)
-    if condition and condition.lineno == condition.test.end_lineno:
+    led, holds = program.condition(node)
+    condition = led.test if isinstance(led, ast.If) else None
+    if condition and condition.lineno == condition.end_lineno:
         key = f"{program.quoted(condition.lineno)}: it was {'true' if holds else 'false'}."
         parts.append(Part("Which condition led to that line, and was it true or false?", key))
-    if stores := program.stores(condition.test if condition else node, program.function(node)):
+    elif led and not condition:
+        asked = "Which exception led to that line, and where is it caught?"
+        parts.append(Part(asked, f"{program.quoted(led.lineno)}."))
+    if stores := program.stores(condition or node, program.function(node)):
         of_whom = "condition" if condition else "line"
         asked = (
             f"Which lines store what that {of_whom} reads, outside its own function, and when do they run?"
