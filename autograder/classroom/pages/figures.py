@@ -19,7 +19,10 @@ _LESSON = re.compile(r"Read (chapters/[^,]+, “.+”)\.$")  # at the end of a f
 
 @dataclass(frozen=True)
 class HardCheck:
-    """A check's results in a class: how many of the `graded` submissions failed it, and the most frequent advice."""
+    """A check's results in a class: how many of the `graded` submissions failed it, and the most frequent advice.
+
+    `clause` quotes what the task promises.
+    """
 
     id: str
     title: str
@@ -28,6 +31,12 @@ class HardCheck:
     not_run: int
     graded: int
     advice: str
+    clause: str
+
+    @property
+    def lesson(self) -> str:
+        """The lesson that the advice names, or ""."""
+        return lesson[1] if (lesson := _LESSON.search(self.advice)) else ""
 
     @property
     def share_failed(self) -> float:
@@ -158,6 +167,7 @@ def _hard_check(verdicts: Sequence[CheckVerdict]) -> HardCheck:
         sum(verdict.status == "not run" for verdict in verdicts),
         len(verdicts),
         advice[0][0] if advice else "",
+        (failed or verdicts)[0].promise,
     )
 
 
