@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import ThreadPoolExecutor
 from hashlib import sha256
 from pathlib import Path
 from typing import Annotated
@@ -118,8 +118,7 @@ def _make(
     sheets: list[Sheet] = []
     with ThreadPoolExecutor(jobs) as pool:
         try:
-            for done in as_completed([pool.submit(make, work) for work in works]):
-                sheet = done.result()
+            for sheet in pool.map(make, works):
                 sheets.append(sheet)
                 line = f"{sheet.student}: {len(sheet.questions)} questions; {len(sheets)} of {len(works)} students"
                 console.print(f"{line}{sheet.note and f' ({sheet.note})'}", markup=False, soft_wrap=True)
@@ -127,4 +126,4 @@ def _make(
             stop.set()
             pool.shutdown(cancel_futures=True)
             raise
-    return sorted(sheets, key=lambda sheet: sheet.student)
+    return sheets

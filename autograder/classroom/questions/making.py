@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -57,10 +58,9 @@ class Maker:
         self.say("grades the program")
         before = self._verdicts(text)
         passed = {one.id for one in before if one.status == "passed"}
-        if not passed or any(one.status == "error" for one in before):
-            reason = next(
-                (one.help for one in before if one.status == "error"), "the program passes no check"
-            )
+        errors = [one.help for one in before if one.status == "error"]
+        if errors or not passed:
+            reason = [*errors, "the program passes no check"][0]
             return replace(sheet, note=f"no questions: {reason.splitlines()[0]}")
         questions = self._questions(program, passed)
         few = f"{len(questions)} of {self.number} questions: the others would have no sure key"
@@ -99,7 +99,7 @@ class Maker:
         A change after which nothing works is left out, as there is little to explain.
         """
         roots = {check.id for check in self.exercise.checks if not check.needs}
-        for change in self._in_turn(list(made))[:MOST_CHANGES]:
+        for change in self._in_turn(made)[:MOST_CHANGES]:
             self.say(f"grades a change of line {change.line}")
             after = self._verdicts(change.text, passed)
             failed = [one for one in after if one.status == "failed" and one.id in passed]
@@ -132,14 +132,14 @@ class Maker:
         name = f"{self.submission.student}\0{self.exercise.name}\0"
         return sorted(items, key=lambda item: hashlib.sha256((name + words(item)).encode()).digest())
 
-    def _in_turn(self, made: Sequence[Change]) -> list[Change]:
+    def _in_turn(self, made: Iterable[Change]) -> list[Change]:
         """Return changes in the student's order, from each operator in turn."""
-        waiting: dict[str, list[Change]] = {}
+        turns: Counter[str] = Counter()
+        in_turn: list[tuple[int, Change]] = []
         for change in self._in_order(made, lambda one: f"{one.operator} {one.line} {one.supposed}"):
-            waiting.setdefault(change.operator, []).append(change)
-        return [
-            change for row in range(len(made)) for ours in waiting.values() for change in ours[row : row + 1]
-        ]
+            turns[change.operator] += 1
+            in_turn.append((turns[change.operator], change))
+        return [change for _, change in sorted(in_turn, key=lambda one: one[0])]
 
 
 def _words(question: Question) -> str:
@@ -153,7 +153,7 @@ def _question(change: Change, failed: Sequence[CheckVerdict], who: str) -> Quest
     asked = (
         f"Suppose {change.supposed}. Which clause of the task would be broken, what would {who} see, and why?"
     )
-    return Question(change.kind, change.line, change.situation, (*change.first, Part(asked, key)))
+    return Question(change.kind, change.line, "", (*change.first, Part(asked, key)))
 
 
 def _seen(verdict: CheckVerdict) -> str:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
 from markupsafe import Markup, escape
+from pydantic import TypeAdapter
 
 from autograder.atomic_file import write_atomically
 
@@ -65,21 +65,18 @@ def _with_code(text: str) -> Markup:
     )
 
 
+_KEPT = TypeAdapter(tuple[str, Sheet])  # what the sheet depends on, and the sheet
+
+
 def keep(path: Path, sheet: Sheet, made_for: str) -> None:
     """Write a finished sheet to a file, with what it depends on."""
-    write_atomically(path, json.dumps({"made_for": made_for, "sheet": asdict(sheet)}, indent=1) + "\n")
+    write_atomically(path, _KEPT.dump_json((made_for, sheet), indent=1))
 
 
 def kept(path: Path, made_for: str) -> Sheet | None:
     """Read a finished sheet; None if there is none, if it is damaged, or if it depends on something else."""
     try:
-        record = json.loads(path.read_text(encoding="utf-8"))
-        if record["made_for"] != made_for:
-            return None
-        questions = (
-            Question(**one | {"parts": tuple(Part(**part) for part in one["parts"])})
-            for one in record["sheet"]["questions"]
-        )
-        return Sheet(**record["sheet"] | {"questions": tuple(questions)})
-    except (OSError, ValueError, KeyError, TypeError):
+        depends_on, sheet = _KEPT.validate_json(path.read_bytes())
+    except (OSError, ValueError):
         return None
+    return sheet if depends_on == made_for else None
