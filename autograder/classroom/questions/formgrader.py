@@ -6,6 +6,7 @@ questions. Only the notebooks in the gradebook's folder have keys, and nbgrader'
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -63,7 +64,7 @@ class QuestionsGradebook(CourseGradebook):
         verdicts = [CheckVerdict(name, name, "to mark", 0, POINTS) for name in self._names]
         grade = Grade(assignment_of(self._sheets[student].exercise), student, BY_HAND, verdicts)
         try:
-            return self.enter(Entry(grade, _answers(submitted / student, grade.exercise))) is not None
+            return self.enter(Entry(grade, answers_in(submitted / student, grade.exercise))) is not None
         except (UnusableSubmission, ValueError) as error:
             return self.enter(Entry(grade, None, f"The answers cannot be read: {error}")) is not None
 
@@ -126,16 +127,18 @@ def _verbatim(text: str) -> str:
     return f"{fence}text\n{text}\n{fence}"
 
 
-def _answers(folder: Path, assignment: str) -> dict[str, str]:
-    """Return the answers that a student has written, by the names of their cells.
+def answers_in(folder: Path, assignment: str) -> dict[str, str]:
+    """Return the answers that a student has written, by the names of their cells; links are not followed.
 
     Raises:
         UnusableSubmission: the file cannot be read.
         ValueError: the file is no notebook.
     """
     name = f"{assignment}.ipynb"
-    path = next((path for path in (folder / assignment / name, folder / name) if path.exists()), None)
-    cells = cells_in(OwnFile(path).read(most_bytes(name)).decode("utf-8-sig")) if path else []
+    found = [path for path in (folder / assignment / name, folder / name) if os.path.lexists(path)]
+    if not found or found[0].parent.is_symlink():
+        return {}
+    cells = cells_in(OwnFile(found[0]).read(most_bytes(name)).decode("utf-8-sig"))
     texts = {_grade_id(cell): printable(source_of(cell))[:LONGEST_ANSWER] for cell in cells}
     return {name: text for name, text in texts.items() if text.strip() not in ("", TO_ANSWER)}
 
