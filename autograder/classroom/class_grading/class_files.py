@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from datetime import datetime, timezone
 from pathlib import Path
 
 from autograder.classroom.batch.batch_record import BatchRecord, write_batch
@@ -16,6 +17,7 @@ from autograder.classroom.nbgrader_bridge.course_folder import RELEASE, Nbgrader
 from autograder.classroom.nbgrader_bridge.gradebook import CourseGradebook, Entry
 from autograder.classroom.nbgrader_bridge.rebuild_submission import NoSolutionCell
 from autograder.classroom.pages.drawings import Drawings
+from autograder.classroom.pages.history import read_history, with_day, write_history
 from autograder.classroom.pages.pages import write_class_page, write_student_page, write_submission_pages
 from autograder.engine.essay import load_essay, unmarked_grade
 from autograder.engine.exercise import essay_names, exercises_folder
@@ -123,7 +125,11 @@ class ClassFiles:
             record = self.record.with_points(grades)
             write_batch(self._out, record)
             words = record.in_words()
-        return write_class_page(self._out, grades, refused, batch=words)
+        today = datetime.now(timezone.utc).date().isoformat()
+        history = with_day(read_history(self._out), today, grades)
+        write_history(self._out, history)
+        earlier = [row for row in history if row.day != today]
+        return write_class_page(self._out, grades, refused, batch=words, history=earlier)
 
     def problems(self) -> list[str]:
         """Return a sentence on each grade that is not in the gradebook, and write nbgrader's output to a file."""

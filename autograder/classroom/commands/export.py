@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from enum import Enum
 from pathlib import Path
 from typing import Annotated
@@ -13,6 +14,8 @@ from rich.console import Console
 from autograder.classroom.export.formats import FORMATS, Export, LeftOut, read_batch
 from autograder.classroom.export.formats import export as make_export
 from autograder.classroom.export.published import Options, UnusableBatch
+from autograder.classroom.pages.history import FILE as HISTORY
+from autograder.classroom.pages.history import HIDDEN, history_text, read_history, with_day
 from ros_runtime.course_error import COMMAND_FAILED, CommandFailed
 
 Format = Enum("Format", {name: name for name in FORMATS}, type=str)  # type: ignore[misc]
@@ -74,8 +77,13 @@ def export(
         # In a job that Classroom 50 runs, these variables identify the submission.
         {name: value for name, value in os.environ.items() if len(grades) == 1 or name == "CLASSROOM"},
     )
+    graded = source if source.is_dir() else source.parent
     made = make_export(format_.value, grades, options)
-    folder = out or (source if source.is_dir() else source.parent) / "exports" / format_.value
+    if format_.value == "csv":
+        days = with_day(read_history(graded), graded_at.date().isoformat(), grades)
+        text = history_text(row for row in days if hidden is Hidden.show or row.visibility != HIDDEN)
+        made = replace(made, files={**made.files, HISTORY: text}, places=[*made.places, HISTORY])
+    folder = out or graded / "exports" / format_.value
     try:
         made.write(folder)
     except OSError as error:

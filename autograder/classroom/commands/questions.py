@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import ThreadPoolExecutor
 from hashlib import sha256
 from pathlib import Path
 from typing import Annotated
@@ -13,6 +13,7 @@ from rich.console import Console
 
 from autograder.classroom.batch.collection import Work, collect
 from autograder.classroom.batch.version import checks_version
+from autograder.classroom.questions.formgrader import assignment_of, enter_questions
 from autograder.classroom.questions.making import Maker
 from autograder.classroom.questions.pages import EXAMINER, STUDENTS, TABLE, write_pages
 from autograder.classroom.questions.question import Sheet, keep, kept
@@ -35,6 +36,14 @@ def questions(
         list[str] | None, typer.Option("--student", help="only for this student (can be repeated)")
     ] = None,
     number: Annotated[int, typer.Option(min=1, max=6, help="questions for each student")] = 3,
+    nbgrader: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FOLDER",
+            help="also enter the questions, their keys and the answers in SUBMITTED into this nbgrader course, "
+            "such as graded/; give the points in Formgrader",
+        ),
+    ] = None,
     jobs: JobsOption = os.cpu_count() or 1,
     course: CourseOption = None,
 ) -> None:
@@ -70,6 +79,13 @@ def questions(
         f"{TABLE} have the keys",
         markup=False,
     )
+    if nbgrader:
+        marked = enter_questions(nbgrader, sheets, submitted, number)
+        console.print(
+            f"{marked} of {len(sheets)} students are marked; Formgrader, started in {nbgrader}, shows the others under "
+            f"Manual Grading > {assignment_of(exercise)}",
+            markup=False,
+        )
     raise typer.Exit(0 if asked else COMMAND_FAILED)
 
 
@@ -100,8 +116,7 @@ def _make(
     sheets: list[Sheet] = []
     with ThreadPoolExecutor(jobs) as pool:
         try:
-            for done in as_completed([pool.submit(make, work) for work in works]):
-                sheet = done.result()
+            for sheet in pool.map(make, works):
                 sheets.append(sheet)
                 line = f"{sheet.student}: {len(sheet.questions)} questions; {len(sheets)} of {len(works)} students"
                 console.print(f"{line}{sheet.note and f' ({sheet.note})'}", markup=False, soft_wrap=True)
@@ -109,4 +124,4 @@ def _make(
             stop.set()
             pool.shutdown(cancel_futures=True)
             raise
-    return sorted(sheets, key=lambda sheet: sheet.student)
+    return sheets

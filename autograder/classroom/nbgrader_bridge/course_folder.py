@@ -37,6 +37,7 @@ AUTOGRADE_PREPROCESSORS = [
 ]
 FEEDBACK_PREPROCESSORS = [
     "nbgrader.preprocessors.GetGrades",
+    f"{_BRIDGE}.feedback_page.WithoutKeys",
     "nbconvert.preprocessors.CSSHTMLHeaderPreprocessor",
     "nbconvert.preprocessors.sanitize.SanitizeHTML",
 ]

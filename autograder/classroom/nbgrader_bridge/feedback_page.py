@@ -1,4 +1,7 @@
-"""nbgrader's feedback page, whose list shows the title of each check; stock nbgrader shows "Test cell" for each."""
+"""nbgrader's feedback page, whose list shows the title of each check; stock nbgrader shows "Test cell" for each.
+
+A key that formgrader shows to the marker is not on the page.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from nbconvert.exporters import HTMLExporter
+from nbconvert.preprocessors import Preprocessor
 from nbformat import NotebookNode
+from traitlets import Bool
 from traitlets.config import Config
 
 TEMPLATES = Path(__file__).parent / "templates"
 TEMPLATE = "checks_by_title"
+KEY = "key-"  # the beginning of the ids of cells that only the marker may see
 _POINTS = re.compile(r"\s*\(\d+ points?\)$")
 
 
@@ -33,6 +39,17 @@ class FeedbackPage(HTMLExporter):
         """Add the filter `check_title` for the template."""
         yield from super().default_filters()
         yield ("check_title", check_title)
+
+
+class WithoutKeys(Preprocessor):
+    """Removes the cells that only the marker may see."""
+
+    enabled = Bool(True).tag(config=True)
+
+    def preprocess(self, nb: NotebookNode, resources: Any) -> tuple[NotebookNode, Any]:
+        """Remove them."""
+        nb.cells = [cell for cell in nb.cells if not cell.get("id", "").startswith(KEY)]
+        return nb, resources
 
 
 def check_title(cell: NotebookNode) -> str:

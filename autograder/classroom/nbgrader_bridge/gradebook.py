@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import nbformat
+from nbformat import NotebookNode
 from nbgrader.api import Gradebook
 
 from autograder.atomic_file import write_atomically
@@ -131,8 +132,7 @@ class CourseGradebook:
             return
         folder = self._folder / "source" / exercise
         folder.mkdir(parents=True, exist_ok=True)
-        source = read_source(self._solutions / exercise / f"{exercise}.ipynb")
-        nbformat.write(with_generated_cells(source, exercise), folder / f"{exercise}.ipynb")
+        nbformat.write(self.source_notebook(exercise), folder / f"{exercise}.ipynb")
         try:
             call(self._course.generate_assignment, exercise)
         except NbgraderError as error:
@@ -140,12 +140,19 @@ class CourseGradebook:
             raise NbgraderError(f"{error} ({advice})", error.log) from error
         self._assigned.add(exercise)
 
-    def _submission(self, entry: Entry) -> dict[str, str]:
-        """Return the files that nbgrader reads: the rebuilt notebook, and timestamp and secret if there are any."""
+    def source_notebook(self, exercise: str) -> NotebookNode:
+        """Return the notebook from which nbgrader makes the exercise's assignment."""
+        return with_generated_cells(read_source(self._solutions / exercise / f"{exercise}.ipynb"), exercise)
+
+    def submitted_notebook(self, entry: Entry) -> NotebookNode:
+        """Return the notebook that nbgrader reads as the submission."""
         name = entry.grade.exercise
         release = nbformat.read(self._folder / RELEASE / name / f"{name}.ipynb", as_version=4)
-        notebook = rebuild_submission(release, file_names(name), entry.sources, entry.problem)
-        files = {f"{name}.ipynb": nbformat.writes(notebook) + "\n"}
+        return rebuild_submission(release, file_names(name), entry.sources, entry.problem)
+
+    def _submission(self, entry: Entry) -> dict[str, str]:
+        """Return the files that nbgrader reads: the rebuilt notebook, and timestamp and secret if there are any."""
+        files = {f"{entry.grade.exercise}.ipynb": nbformat.writes(self.submitted_notebook(entry)) + "\n"}
         beside = {TIMESTAMP: entry.timestamp, SECRET: entry.secret}
         return files | {name: text for name, text in beside.items() if text}
 

@@ -18,7 +18,10 @@ MAX_TOPICS = 3  # listed for one submission
 
 @dataclass(frozen=True)
 class HardCheck:
-    """A check's results in a class: how many of the `graded` submissions failed it, and the most frequent advice."""
+    """A check's results in a class: how many of the `graded` submissions failed it, and the most frequent advice.
+
+    `lesson` is the lesson of that advice, in words, or ""; `clause` quotes what the task promises.
+    """
 
     id: str
     title: str
@@ -27,6 +30,8 @@ class HardCheck:
     not_run: int
     graded: int
     advice: str
+    lesson: str
+    clause: str
 
     @property
     def share_failed(self) -> float:
@@ -148,7 +153,8 @@ def _hardest(graded: Sequence[Grade]) -> list[HardCheck]:
 
 def _hard_check(verdicts: Sequence[CheckVerdict]) -> HardCheck:
     failed = [verdict for verdict in verdicts if is_failed(verdict)]
-    advice = Counter(verdict.help for verdict in failed if verdict.help).most_common(1)
+    advice = Counter((verdict.help, verdict.lesson) for verdict in failed if verdict.help).most_common(1)
+    help_, lesson = advice[0][0] if advice else ("", "")
     first = verdicts[0]
     return HardCheck(
         first.id,
@@ -157,7 +163,9 @@ def _hard_check(verdicts: Sequence[CheckVerdict]) -> HardCheck:
         len(failed),
         sum(verdict.status == "not run" for verdict in verdicts),
         len(verdicts),
-        advice[0][0] if advice else "",
+        help_,
+        in_words(lesson) if lesson else "",
+        (failed or verdicts)[0].promise,
     )
 
 

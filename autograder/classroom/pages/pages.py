@@ -17,6 +17,7 @@ from autograder.classroom.pages.figures import (
     lessons_to_repeat,
     who_needs_help,
 )
+from autograder.classroom.pages.history import Row
 from autograder.classroom.pages.plots import bars_svg
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.report.rendering import drawn, write_html
@@ -35,11 +36,12 @@ def write_class_page(
     grades: Sequence[Grade],
     left_out: Sequence[str] = (),
     batch: Mapping[str, str] | None = None,
+    history: Sequence[Row] = (),
 ) -> Path:
     """Write the page on the whole class.
 
     `left_out`: sentences on folders that could not be read as submissions. `batch`: when and with which versions the
-    class was graded, by label.
+    class was graded, by label. `history`: what the class failed at on earlier days, oldest first.
     """
     students: dict[str, dict[str, Grade]] = {}
     for grade in sorted(grades, key=lambda grade: grade.student):
@@ -65,6 +67,9 @@ def write_class_page(
         threshold=NEEDS_HELP,
         cause=cause,
         exercises=exercises,
+        before=lambda exercise, check: [
+            row.in_words for row in history if (row.exercise, row.check) == (exercise, check)
+        ],
         charts={
             its.exercise: Markup(
                 bars_svg(

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from autograder.classroom.audit.generated.mistakes import OPERATORS
-from autograder.classroom.audit.generated.program import Edits, last_name
+from autograder.classroom.audit.generated.program import Edits, Named, last_name
 from autograder.classroom.questions.question import Part
 from autograder.classroom.questions.student_program import StudentProgram
 
@@ -38,7 +38,6 @@ class Change:
         line: its number.
         text: the whole changed program.
         supposed: the change in words: "line 41, …, were missing".
-        situation: what the program has as it is.
         first: what is asked first, about the program as it is.
         why: the reason for the effect, as far as the text of the program shows it.
     """
@@ -48,7 +47,6 @@ class Change:
     line: int
     text: str
     supposed: str
-    situation: str = ""
     first: tuple[Part, ...] = ()
     why: str = ""
 
@@ -58,10 +56,10 @@ def changes(program: StudentProgram) -> Iterator[Change]:
     for operator in USED:
         for edits in OPERATORS[operator][1](program):
             if not any("__" in new for new in edits.values()):
-                yield from _change(program, "change", operator, edits)
+                yield from _change(program, operator, edits)
     for statement in program.every(ast.stmt):
         if _has_an_effect(statement) and not program.is_of_start(statement):
-            yield from _change(program, "change", "leaves_a_line_out", {statement: "pass"})
+            yield from _change(program, "leaves_a_line_out", {statement: "pass"})
 
 
 def executor_changes(program: StudentProgram) -> Iterator[Change]:
@@ -76,43 +74,42 @@ def executor_changes(program: StudentProgram) -> Iterator[Change]:
 
 
 def _change(
-    program: StudentProgram,
-    kind: Literal["executor", "change"],
-    operator: str,
-    edits: Edits,
-    situation: str = "",
-    first: tuple[Part, ...] = (),
-    why: str = "",
+    program: StudentProgram, operator: str, edits: Edits, why: str = "", first: tuple[Part, ...] = ()
 ) -> Iterator[Change]:
-    """Yield the change if all its edits are in one line."""
+    """Yield the change if all its edits are in one line; those with a reason are about the executor."""
     text = program.with_text(edits)
     lines = {node.lineno for node in edits if isinstance(node, ast.expr | ast.stmt)}
     if text and len(lines) == 1:
         (line,) = lines
         new = text.split("\n")[line - 1].strip()
         supposed = f"{program.quoted(line)}, {'were missing' if new == 'pass' else f'were `{new}`'}"
-        yield Change(kind, operator, line, text, supposed, situation, first, why)
+        yield Change("executor" if why else "change", operator, line, text, supposed, first, why)
+
+
+def _waits_of_goals(program: StudentProgram) -> Iterator[tuple[ast.Call | ast.Await, Named]]:
+    """Yield the waits in loops of execute callbacks, each with a callback for messages that goes on meanwhile."""
+    for execute in program.callbacks("execute"):
+        for wait in program.waits(execute):
+            for other in program.callbacks("subscription")[:1] if program.loop(wait) else ():
+                yield wait, other
 
 
 def _one_thread(program: StudentProgram, call: ast.Call) -> Iterator[Change]:
     """An execute callback keeps a thread, and only further threads let the other callbacks run."""
-    for execute in program.callbacks("execute"):
-        waits = [one for one in program.waits(execute) if program.loop(one)]
-        for other in program.callbacks("subscription")[:1] if waits else ():
-            if any(isinstance(one, ast.Await) for one in waits):
-                continue
-            place = program.quoted(waits[0].lineno)
-            asked = (
-                f"While {execute.name} waits in {place}, {other.name} (line {other.lineno}) goes on. Which line of "
-                "your program makes that possible, and how?"
-            )
-            why = (
-                f"The only thread waits in {place} until the goal ends. Meanwhile no other callback runs: neither "
-                f"{other.name} nor those for goals and cancels."
-            )
-            first = (Part(asked, f"{program.quoted(call.lineno)}: {_THREADS_RUN_OTHERS}"),)
-            edits: Edits = {call: f"{ast.unparse(call.func)}(num_threads=1)"}
-            yield from _change(program, "executor", "one_thread", edits, first=first, why=why)
+    found = list(_waits_of_goals(program))
+    for wait, other in found[:1] if not any(isinstance(wait, ast.Await) for wait, _ in found) else ():
+        place = program.quoted(wait.lineno)
+        asked = (
+            f"While {program.function_name(wait)} waits in {place}, {other.name} (line {other.lineno}) goes on. Which "
+            "line of your program makes that possible, and how?"
+        )
+        why = (
+            f"The only thread waits in {place} until the goal ends. Meanwhile no other callback runs: neither "
+            f"{other.name} nor those for goals and cancels."
+        )
+        first = (Part(asked, f"{program.quoted(call.lineno)}: {_THREADS_RUN_OTHERS}"),)
+        edits: Edits = {call: f"{ast.unparse(call.func)}(num_threads=1)"}
+        yield from _change(program, "one_thread", edits, why, first)
 
 
 def _one_group(program: StudentProgram) -> Iterator[Change]:
@@ -120,51 +117,43 @@ def _one_group(program: StudentProgram) -> Iterator[Change]:
     waiting = [
         one.name for one in program.callbacks("service", "subscription", "timer") if program.waits(one)
     ]
+    why = (
+        "None is the node's default group, which is mutually exclusive: however many threads there are, only one of "
+        f"its callbacks runs at a time. {' and '.join(waiting)} waits."
+    )
     for word in program.every(ast.keyword) if waiting else ():
         if word.arg == "callback_group":
-            why = (
-                "None is the node's default group, which is mutually exclusive: however many threads there are, only "
-                f"one of its callbacks runs at a time. {' and '.join(waiting)} waits."
-            )
-            yield from _change(program, "executor", "one_group", {word.value: "None"}, why=why)
+            yield from _change(program, "one_group", {word.value: "None"}, why)
 
 
 def _sleeps_instead(program: StudentProgram, spin: ast.Call) -> Iterator[Change]:
     """A coroutine sleeps where it awaits in a loop, in a node with one thread."""
-    for execute in program.callbacks("execute"):
-        for wait in program.waits(execute):
-            statement, awaited = program.statement(wait), getattr(wait, "value", None)
-            if (
-                not isinstance(wait, ast.Await)
-                or not isinstance(statement, ast.Expr)
-                or not program.loop(wait)
-            ):
-                continue
+    for wait, other in _waits_of_goals(program):
+        statement, awaited = program.statement(wait), getattr(wait, "value", None)
+        if isinstance(wait, ast.Await) and isinstance(statement, ast.Expr):
             is_sleep = isinstance(awaited, ast.Call) and awaited.args and "sleep" in last_name(awaited)
             seconds = ast.unparse(awaited.args[0]) if is_sleep and isinstance(awaited, ast.Call) else "0.05"
-            for other in program.callbacks("subscription")[:1]:
-                asked = (
-                    f"Your node has one thread. Why does {other.name} (line {other.lineno}) go on while "
-                    f"{program.function_name(wait)} waits in {program.quoted(wait.lineno)}?"
-                )
-                why = f"The only thread ({program.quoted(spin.lineno)}) sleeps, and meanwhile no other callback runs."
-                edits: Edits = {statement: f"{_import_time(program)}time.sleep({seconds})"}
-                first = (Part(asked, _AWAIT_GIVES_BACK),)
-                yield from _change(program, "executor", "sleeps_instead", edits, first=first, why=why)
+            asked = (
+                f"Your node has one thread. Why does {other.name} (line {other.lineno}) go on while "
+                f"{program.function_name(wait)} waits in {program.quoted(wait.lineno)}?"
+            )
+            why = f"The only thread ({program.quoted(spin.lineno)}) sleeps, and meanwhile no other callback runs."
+            edits: Edits = {statement: f"{_import_time(program)}time.sleep({seconds})"}
+            yield from _change(program, "sleeps_instead", edits, why, (Part(asked, _AWAIT_GIVES_BACK),))
 
 
 def _sleeps_first(program: StudentProgram, spin: ast.Call) -> Iterator[Change]:
-    """A callback for messages sleeps, and the callbacks for requests and goals wait for the one thread."""
-    others = ", ".join(one.name for one in program.callbacks("service", "goal", "execute"))
-    for callback in program.callbacks("subscription", "timer") if others else ():
-        first = callback.body[1 if ast.get_docstring(callback) and len(callback.body) > 1 else 0]
-        if isinstance(first, ast.Assign | ast.Expr):
-            why = (
-                f"One thread runs all callbacks ({program.quoted(spin.lineno)}): while {callback.name} sleeps, all "
-                f"others have to wait ({others}), and what {callback.name} stores is late."
-            )
-            edits: Edits = {first: f"{_import_time(program)}time.sleep({SLEEP_TIME}); {ast.unparse(first)}"}
-            yield from _change(program, "executor", "sleeps_first", edits, why=why)
+    """A callback for messages sleeps, and everything else waits for the one thread."""
+    for callback in program.callbacks("subscription", "timer", "feedback"):
+        others = [one.name for one in program.callbacks("service", "goal", "execute", "feedback")]
+        names = ", ".join(name for name in others if name != callback.name)
+        why = (
+            f"One thread runs all callbacks ({program.quoted(spin.lineno)}): while {callback.name} sleeps, all others "
+            f"have to wait ({names or 'also those for answers and results'}), and what {callback.name} stores is late."
+        )
+        sleep = f"{_import_time(program)}time.sleep({SLEEP_TIME})"
+        ((first, statements),) = program.begun_with(callback, sleep).items()
+        yield from _change(program, "sleeps_first", {first: statements.replace("\n", "; ")}, why)
 
 
 def _has_an_effect(statement: ast.stmt) -> bool:

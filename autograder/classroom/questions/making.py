@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -22,7 +23,7 @@ from autograder.engine.submission import Submission
 from autograder.engine.verdict import CheckVerdict
 
 MOST_CHANGES = 8  # changed copies that are graded for each kind of question
-MOST_RUNS = 3  # scenarios of the traced copy
+MOST_RUNS = 6  # scenarios of the traced copy
 ENOUGH_FAILED = 2  # failed checks that a key names; after them a changed copy is not graded further
 LONGEST_TEXT = 250  # characters of what a check expected or observed
 _CLAUSE = re.compile(r"(?:^clauses? |”\), )(\d+)")  # in a verdict's promise
@@ -57,10 +58,9 @@ class Maker:
         self.say("grades the program")
         before = self._verdicts(text)
         passed = {one.id for one in before if one.status == "passed"}
-        if not passed or any(one.status == "error" for one in before):
-            reason = next(
-                (one.help for one in before if one.status == "error"), "the program passes no check"
-            )
+        errors = [one.help for one in before if one.status == "error"]
+        if errors or not passed:
+            reason = [*errors, "the program passes no check"][0]
             return replace(sheet, note=f"no questions: {reason.splitlines()[0]}")
         questions = self._questions(program, passed)
         few = f"{len(questions)} of {self.number} questions: the others would have no sure key"
@@ -68,9 +68,10 @@ class Maker:
 
     def _questions(self, program: StudentProgram, passed: set[str]) -> tuple[Question, ...]:
         """Choose one question of each kind, then changes, then moments, each about another line."""
+        offers = bool(program.callbacks("service", "execute"))
         of_moments = self._moments(program)
-        of_executor = self._effects(executor_changes(program), passed)
-        of_changes = self._effects(changes(program), passed)
+        of_executor = self._effects(executor_changes(program), passed, offers)
+        of_changes = self._effects(changes(program), passed, offers)
         chosen: dict[int, Question] = {}
         for source in (of_moments, of_executor, *[of_changes] * self.number, *[of_moments] * self.number):
             if len(chosen) < self.number:
@@ -92,13 +93,13 @@ class Maker:
                 continue
             yield from self._in_order(moments(program, run), _words)
 
-    def _effects(self, made: Iterable[Change], passed: set[str]) -> Iterator[Question]:
+    def _effects(self, made: Iterable[Change], passed: set[str], offers: bool) -> Iterator[Question]:
         """Grade changed copies, and yield questions about those that fail checks which the program itself passes.
 
         A change after which nothing works is left out, as there is little to explain.
         """
         roots = {check.id for check in self.exercise.checks if not check.needs}
-        for change in self._in_turn(list(made))[:MOST_CHANGES]:
+        for change in self._in_turn(made)[:MOST_CHANGES]:
             self.say(f"grades a change of line {change.line}")
             after = self._verdicts(change.text, passed)
             failed = [one for one in after if one.status == "failed" and one.id in passed]
@@ -106,7 +107,7 @@ class Maker:
                 one.status != "error" for one in after
             )
             if failed and is_sure:
-                yield _question(change, failed)
+                yield _question(change, failed, "a client" if offers else "the user, or the server,")
 
     def _verdicts(self, text: str, passed: set[str] | None = None) -> list[CheckVerdict]:
         """Grade a text; if it is that of a changed copy, until enough checks fail that `passed` before."""
@@ -131,14 +132,14 @@ class Maker:
         name = f"{self.submission.student}\0{self.exercise.name}\0"
         return sorted(items, key=lambda item: hashlib.sha256((name + words(item)).encode()).digest())
 
-    def _in_turn(self, made: Sequence[Change]) -> list[Change]:
+    def _in_turn(self, made: Iterable[Change]) -> list[Change]:
         """Return changes in the student's order, from each operator in turn."""
-        waiting: dict[str, list[Change]] = {}
+        turns: Counter[str] = Counter()
+        in_turn: list[tuple[int, Change]] = []
         for change in self._in_order(made, lambda one: f"{one.operator} {one.line} {one.supposed}"):
-            waiting.setdefault(change.operator, []).append(change)
-        return [
-            change for row in range(len(made)) for ours in waiting.values() for change in ours[row : row + 1]
-        ]
+            turns[change.operator] += 1
+            in_turn.append((turns[change.operator], change))
+        return [change for _, change in sorted(in_turn, key=lambda one: one[0])]
 
 
 def _words(question: Question) -> str:
@@ -146,11 +147,13 @@ def _words(question: Question) -> str:
     return f"{question.line} {[part.asked for part in question.parts]}"
 
 
-def _question(change: Change, failed: Sequence[CheckVerdict]) -> Question:
+def _question(change: Change, failed: Sequence[CheckVerdict], who: str) -> Question:
     """Return the question on a change after which these checks fail."""
     key = " ".join(filter(None, (*map(_seen, failed), change.why)))
-    asked = f"Suppose {change.supposed}. Which clause of the task would be broken, what would a client see, and why?"
-    return Question(change.kind, change.line, change.situation, (*change.first, Part(asked, key)))
+    asked = (
+        f"Suppose {change.supposed}. Which clause of the task would be broken, what would {who} see, and why?"
+    )
+    return Question(change.kind, change.line, "", (*change.first, Part(asked, key)))
 
 
 def _seen(verdict: CheckVerdict) -> str:

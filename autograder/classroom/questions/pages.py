@@ -7,12 +7,12 @@ from pathlib import Path
 
 from autograder.atomic_file import write_atomically
 from autograder.classroom.export.tables import csv_text, text_cell
-from autograder.classroom.questions.question import Sheet
+from autograder.classroom.questions.formgrader import write_notebook
+from autograder.classroom.questions.question import LETTERS, Sheet, html_of
 from autograder.report.rendering import write_html
 
 STUDENTS, EXAMINER, TABLE = "students", "examiner.html", "questions.csv"
 COLUMNS = ("student_id", "exercise", "question", "part", "kind", "line", "situation", "asked", "key")
-LETTERS = "abcdefgh"
 
 
 def write_pages(out: Path, exercise: str, sheets: Sequence[Sheet]) -> None:
@@ -21,6 +21,7 @@ def write_pages(out: Path, exercise: str, sheets: Sequence[Sheet]) -> None:
         if sheet.questions:
             title = f"{exercise} · {sheet.student}: questions about your program"
             _write(out / STUDENTS / f"{sheet.student}.html", title, [sheet], with_keys=False)
+            write_notebook(out / STUDENTS, sheet)
     _write(out / EXAMINER, f"{exercise}: questions with keys", sheets, with_keys=True)
     rows: list[list[str | float]] = [
         [
@@ -35,4 +36,4 @@ def write_pages(out: Path, exercise: str, sheets: Sequence[Sheet]) -> None:
 
 
 def _write(path: Path, title: str, sheets: Sequence[Sheet], *, with_keys: bool) -> None:
-    write_html(path, "questions.html", title=title, sheets=sheets, with_keys=with_keys, letters=LETTERS)
+    write_html(path, "questions.html", title=title, sheets=sheets, with_keys=with_keys, html_of=html_of)

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-import json
-from dataclasses import asdict, dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from markupsafe import Markup, escape
+from pydantic import TypeAdapter
+
 from autograder.atomic_file import write_atomically
+
+LETTERS = "abcdefgh"  # of a question's parts
 
 
 @dataclass(frozen=True)
@@ -30,6 +35,12 @@ class Question:
     situation: str
     parts: tuple[Part, ...]
 
+    def lettered(self, texts: Sequence[str]) -> list[str]:
+        """Return texts on the parts, with "(a) ", "(b) " … in front if there are several."""
+        return [
+            f"({letter}) {text}" if texts[1:] else text for letter, text in zip(LETTERS, texts, strict=False)
+        ]
+
 
 @dataclass(frozen=True)
 class Sheet:
@@ -42,21 +53,30 @@ class Sheet:
     note: str = ""
 
 
+def html_of(*texts: str) -> Markup:
+    """Return a paragraph for each text that is not empty, in which what is between backticks is code."""
+    return Markup("\n\n").join(Markup("<p>{}</p>").format(_with_code(text)) for text in texts if text)
+
+
+def _with_code(text: str) -> Markup:
+    pieces = enumerate(" ".join(text.split()).split("`"))
+    return Markup("").join(
+        Markup("<code>{}</code>").format(one) if place % 2 else escape(one) for place, one in pieces
+    )
+
+
+_KEPT = TypeAdapter(tuple[str, Sheet])  # what the sheet depends on, and the sheet
+
+
 def keep(path: Path, sheet: Sheet, made_for: str) -> None:
     """Write a finished sheet to a file, with what it depends on."""
-    write_atomically(path, json.dumps({"made_for": made_for, "sheet": asdict(sheet)}, indent=1) + "\n")
+    write_atomically(path, _KEPT.dump_json((made_for, sheet), indent=1))
 
 
 def kept(path: Path, made_for: str) -> Sheet | None:
     """Read a finished sheet; None if there is none, if it is damaged, or if it depends on something else."""
     try:
-        record = json.loads(path.read_text(encoding="utf-8"))
-        if record["made_for"] != made_for:
-            return None
-        questions = (
-            Question(**one | {"parts": tuple(Part(**part) for part in one["parts"])})
-            for one in record["sheet"]["questions"]
-        )
-        return Sheet(**record["sheet"] | {"questions": tuple(questions)})
-    except (OSError, ValueError, KeyError, TypeError):
+        depends_on, sheet = _KEPT.validate_json(path.read_bytes())
+    except (OSError, ValueError):
         return None
+    return sheet if depends_on == made_for else None

@@ -13,9 +13,7 @@ from autograder.classroom.audit.generated.program import Edits, Named, Program, 
 WAITS = ("sleep", "wait", "wait_for")  # names of calls that keep the thread
 MOST_LINES = 2000  # of a program that is read, so that no text keeps the command busy for hours
 LONGEST_QUOTE = 100  # characters of a line of code
-_KINDS = ("subscription", "service", "timer", "feedback", "goal", "cancel")
-# Further callbacks of an ActionServer: the keyword, and the position among its arguments.
-_OF_ACTION_SERVERS = {"execute": ("execute_callback", 3), "accepted": ("handle_accepted_callback", 6)}
+_KINDS = ("subscription", "service", "timer", "feedback", "goal", "cancel", "execute", "accepted")
 _NEW_LINE = re.compile("\r\n|\r|\n")  # what ends a line in Python; str.splitlines knows more
 
 
@@ -42,12 +40,6 @@ class StudentProgram(Program):
         self.kinds: dict[Named, str] = {
             one: kind for one, kind in registered.items() if not self._makes_callbacks(one)
         }
-        for call in self.every(ast.Call):
-            for kind, (keyword, place) in (
-                _OF_ACTION_SERVERS.items() if last_name(call) == "ActionServer" else ()
-            ):
-                given = [word.value for word in call.keywords if word.arg == keyword] + call.args[place:][:1]
-                self.kinds |= {one: kind for one in self.named if given and one.name == last_name(given[0])}
 
     def quoted(self, line: int) -> str:
         """Return a line as a question quotes it: 'line 41, `goal_handle.canceled()`'."""
@@ -100,13 +92,13 @@ class StudentProgram(Program):
         around = (one for one in self.above(node) if isinstance(one, Named | ast.While | ast.For))
         return one if isinstance(one := next(around, None), ast.While | ast.For) else None
 
-    def condition(self, node: ast.AST) -> tuple[ast.If | None, bool]:
-        """Return the innermost `if` of the same function that leads to a node, and whether it has to be true."""
+    def condition(self, node: ast.AST) -> tuple[ast.If | ast.ExceptHandler | None, bool]:
+        """Return the innermost `if` or `except` of the same function that leads to a node, and whether it was true."""
         below = node
         for one in self.above(node):
             if isinstance(one, Named):
                 break
-            if isinstance(one, ast.If) and below is not one.test:
+            if isinstance(one, ast.ExceptHandler) or (isinstance(one, ast.If) and below is not one.test):
                 return one, below in one.body
             below = one
         return None, True

@@ -1,7 +1,7 @@
 """A copy of a student's program that reports which of its lines decided something, and when.
 
 The copy runs in an arena as any submission. The lines to report are known from the text: where a program looks whether
-a cancel is requested, ends a goal, stops the robot, or fills a response.
+a cancel is requested, ends a goal, stops the robot, fills a response, or requests a cancel itself.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from autograder.classroom.audit.generated.field_assignments import field_assignm
 from autograder.classroom.audit.generated.program import Edits, last_name
 from autograder.classroom.questions.student_program import StudentProgram
 
-SEEN, STOPS = "cancel seen", "stop"
+SEEN, STOPS, ASKS = "cancel seen", "stop", "cancel_goal_async"
 ENDS = ("canceled", "succeed", "abort")
 _REPORT = re.compile(r"@line (\d{1,7}) (.+)")
 # In the copy: reports the line and returns the value. A cancel that is not requested, and a Twist after which the robot
@@ -66,8 +66,8 @@ def marks(program: StudentProgram, run: Transcript) -> list[Mark]:
 
 def _places(program: StudentProgram) -> Iterator[tuple[str, ast.expr]]:
     for name in program.every(ast.Attribute):
-        if isinstance(name.ctx, ast.Load) and name.attr in (*ENDS, "is_cancel_requested"):
-            yield name.attr if name.attr in ENDS else SEEN, name
+        if isinstance(name.ctx, ast.Load) and name.attr in (*ENDS, ASKS, "is_cancel_requested"):
+            yield SEEN if name.attr == "is_cancel_requested" else name.attr, name
     for call in program.every(ast.Call):
         if last_name(call) == "publish" and call.args:
             yield STOPS, call.args[0]

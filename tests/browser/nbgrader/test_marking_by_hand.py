@@ -1,4 +1,4 @@
-"""An instructor marks an essay in a browser: formgrader, seven scores, a comment, and the student's page."""
+"""An instructor marks in a browser: an essay, and a student's answers to questions about the student's own program."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from playwright.sync_api import Page, sync_playwright
 
 from accessibility import require_accessible
 from autograder.classroom.nbgrader_bridge.gradebook import CourseGradebook, Entry
+from autograder.classroom.questions.formgrader import assignment_of, enter_questions
+from autograder.classroom.questions.question import Part, Question, Sheet
 from autograder.engine.essay import load_essay, unmarked_grade
 from chromium import CHROMIUM, OFFLINE, needs_chromium
 
@@ -24,6 +26,8 @@ ESSAY = load_essay(NAME)
 ENTRY = Entry(
     unmarked_grade(ESSAY, "anna"), {f"{NAME}.txt": (SOLUTIONS / NAME / "marked/weak.txt").read_text()}
 )
+ASKED = Question("change", 2, "", (Part("Suppose line 2, `a < b`, were missing.", "clause 4: no answer"),))
+SHEET = Sheet("anna", "walk_to", "import rclpy\na < b\n", (ASKED,))
 POINTS = {"graph": "0", "pattern": "1", "type": "0", "qos": "0", "rate": "1.5", "failure": "0", "safety": "0"}
 
 pytestmark = needs_chromium
@@ -68,6 +72,35 @@ def page(address: str) -> Iterator[Page]:
         browser.close()
 
 
+def give_points(page: Page, cell: str, points: str) -> None:
+    box = page.locator(f"input#{cell}.needs_manual_grade")
+    box.wait_for()
+    assert box.input_value() == ""
+    box.fill(points)
+    with page.expect_response(lambda answer: "/api/grade/" in answer.url and answer.ok):
+        box.dispatch_event("change")
+
+
+def test_questions_about_a_program_are_marked_beside_their_keys(
+    page: Page, address: str, course: Path, tmp_path: Path
+) -> None:
+    assert enter_questions(course, [SHEET], tmp_path, 2) == 0
+    name = assignment_of("walk_to")
+    page.goto(f"{address}/formgrader/gradebook/{name}/{name}")
+    page.get_by_role("link", name="Submission #1").click()
+    page.get_by_text("were missing.").wait_for()
+    page.get_by_text("clause 4: no answer").wait_for()
+    page.get_by_text("Ask one of your own.").wait_for()
+    for cell, points in (("question_1", "1.5"), ("question_2", "0")):
+        give_points(page, cell, points)
+    assert enter_questions(course, [SHEET], tmp_path, 2) == 1
+    page.goto((course / "feedback" / "anna" / name / f"{name}.html").as_uri())
+    page.get_by_text("(Score: 1.5 / 4.0)").wait_for()
+    assert page.locator("#toc a").all_inner_texts() == ["Answer 1", "Answer 2"]
+    assert page.get_by_text("clause 4: no answer").count() == 0
+    require_accessible(page)
+
+
 def test_an_essay_is_opened_marked_and_given_back(page: Page, address: str, course: Path) -> None:
     page.goto(f"{address}/formgrader/gradebook/{NAME}/{NAME}")
     page.get_by_role("link", name="Submission #1").click()
@@ -77,12 +110,7 @@ def test_an_essay_is_opened_marked_and_given_back(page: Page, address: str, cour
     drawing.wait_for()
     assert drawing.evaluate("image => image.naturalWidth") > 500
     for criterion in ESSAY.criteria:
-        box = page.locator(f"input#{criterion.id}.needs_manual_grade")
-        box.wait_for()
-        assert box.input_value() == ""
-        box.fill(POINTS[criterion.id])
-        with page.expect_response(lambda answer: "/api/grade/" in answer.url and answer.ok):
-            box.dispatch_event("change")
+        give_points(page, criterion.id, POINTS[criterion.id])
     comment = page.locator("textarea#safety-comment")
     comment.fill("What if the screen hangs?")
     with page.expect_response(lambda answer: "/api/comment/" in answer.url and answer.ok):

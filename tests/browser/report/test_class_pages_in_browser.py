@@ -9,6 +9,7 @@ import pytest
 from playwright.sync_api import Page, sync_playwright
 
 from accessibility import require_accessible
+from autograder.classroom.pages.history import with_day
 from autograder.classroom.pages.pages import write_class_page, write_student_page, write_submission_pages
 from autograder.classroom.pages.plots import bars_svg
 from autograder.engine.verdict import CheckVerdict, Grade
@@ -49,7 +50,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for each in grades:
         write_submission_pages(folder, each, {"walks": [drawing]})
     write_student_page(folder, "anna", [each for each in grades if each.student == "anna"])
-    write_class_page(folder, grades, ["bo/: no file"], {"when": "today"})
+    earlier = with_day((), "2026-10-05", grades)
+    write_class_page(folder, grades, ["bo/: no file"], {"when": "today"}, earlier)
     sections = [Section(each.student, each, {"walks": [drawing]}) for each in grades[:2]]
     write_page(folder / "report.html", title="Report", introduction="Two submissions", sections=sections)
     return folder

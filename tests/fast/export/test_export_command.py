@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 from pathlib import Path
 
 import pytest
-from graded_class import ANNA, BERT, CLEO, DORA, graded_folder
+from graded_class import ANNA, BERT, CLEO, DORA, SECRETS, grade, graded_folder, visible
 from typer.testing import CliRunner, Result
 
 from autograder.classroom.export.formats import FORMATS
+from autograder.classroom.pages.history import with_day, write_history
 from course_cli.app import app
 
 
@@ -30,16 +33,39 @@ def test_every_format_is_written(tmp_path: Path, name: str) -> None:
         more += ["--roster", str(tmp_path / "roster.csv")]
     done = course("--format", name, "--from", graded, "--out", tmp_path / "out", *more)
     assert done.exit_code == 0, done.output
-    assert len(files(tmp_path / "out")) == (1 if name in ("csv", "canvas", "moodle") else 2)
+    assert len(files(tmp_path / "out")) == (1 if name in ("canvas", "moodle") else 2)
 
 
 def test_it_writes_beside_the_grades_and_names_what_has_no_score(tmp_path: Path) -> None:
     graded = graded_folder(tmp_path / "graded")
     done = course("--format", "csv", "--from", graded)
     assert done.exit_code == 0
-    assert files(graded / "exports") == ["csv/grades.csv"]
+    assert files(graded / "exports") == ["csv/class_history.csv", "csv/grades.csv"]
     assert "cleo's battery_service: not graded" in done.output
     assert "emil's arm_architecture: not marked yet" in done.output
+
+
+def test_what_the_class_failed_at_is_exported_with_clause_and_lesson_and_without_students(
+    tmp_path: Path,
+) -> None:
+    failed = visible(
+        "failed", promise="clause 4, “Every request …”", help="Spin. Read chapters/05.ipynb, “Threads”."
+    )
+    batch = [grade("anna", visible(), ANNA.checks[1]), grade("bert", failed, *BERT.checks[1:])]
+    graded = graded_folder(tmp_path / "graded", *batch)
+    earlier = [grade("anna", failed), grade("bert", failed)]
+    write_history(graded, with_day((), "2026-02-20", earlier))
+    done = course("--format", "csv", "--from", graded)
+    assert done.exit_code == 0
+    text = (graded / "exports" / "csv" / "class_history.csv").read_text()
+    before, now = csv.DictReader(io.StringIO(text))
+    assert (before["day"], before["failed"], before["judged"]) == ("2026-02-20", "2", "2")
+    assert (now["failed"], now["judged"]) == ("1", "2")
+    assert now["clause"] == "clause 4, “Every request …”"
+    assert now["lesson"] == "chapters/05.ipynb, “Threads”"
+    assert not [word for word in ("anna", "bert", *SECRETS) if word in text]
+    course("--format", "csv", "--from", graded, "--hidden", "show")
+    assert "a secret title" in (graded / "exports" / "csv" / "class_history.csv").read_text()
 
 
 def test_the_score_of_a_removed_grade_is_removed(tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ from bs4 import BeautifulSoup, Tag
 
 from autograder.authoring.lesson import in_words
 from autograder.classroom.nbgrader_bridge.generated_cells import HIDDEN_HELP
+from autograder.classroom.pages.history import read_history, with_day, write_history
 from autograder.classroom.pages.pages import write_class_page, write_student_page, write_submission_pages
 from autograder.engine.verdict import CheckVerdict, Grade
 
@@ -119,6 +120,20 @@ def test_the_hardest_checks_are_first_with_the_observations_of_their_failures(tm
         ["The title of late", "33 % (1 of 3)", "1", "Said to one."],
         ["The title of easy", "25 % (1 of 4)", "", "Rarely said."],
     ]
+
+
+def test_the_class_is_compared_with_the_days_on_which_something_else_failed(tmp_path):
+    fails = [grade(name, failed("hard"), check("easy")) for name in ("anna", "bert")]
+    halves = [fails[0], grade("bert", check("hard"), check("easy"))]
+    rows_then = with_day(with_day((), "2026-10-05", fails), "2026-10-06", fails)
+    assert [(row.day, row.check, row.failed, row.judged) for row in rows_then] == [
+        ("2026-10-05", "hard", "2", "2")
+    ]
+    write_history(tmp_path, with_day(rows_then, "2026-10-12", halves))
+    kept = read_history(tmp_path)
+    assert kept == with_day(rows_then, "2026-10-12", halves)
+    page = read(write_class_page(tmp_path, halves, history=kept[:1]))
+    assert rows(page, "Hardest checks")[0][1] == "50 % (1 of 2) 100 % on 2026-10-05"
 
 
 def test_lessons_to_repeat_are_those_of_the_most_students_in_all_exercises(tmp_path):

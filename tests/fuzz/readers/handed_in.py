@@ -13,7 +13,9 @@ import nbformat
 from hypothesis import strategies as st
 
 from autograder.classroom.batch.collection import NoSubmissions, collect
+from autograder.classroom.nbgrader_bridge.generated_cells import cell_metadata
 from autograder.classroom.nbgrader_bridge.rebuild_submission import rebuild_submission
+from autograder.classroom.questions.formgrader import LONGEST_ANSWER, answers_in
 from autograder.engine.exercise import file_names
 from autograder.engine.submission import MAX_BYTES, UnusableSubmission, read_submission
 from fuzz import strategies as odd
@@ -80,6 +82,27 @@ def require_own_work(entries: list[Entry]) -> None:
             text.encode()
 
 
+def require_answers_or_reason(entries: list[Entry]) -> None:
+    """Require that the answers to an examiner's questions are read within bounds and are the student's own."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name).resolve()
+        for place, text in ((folder / "secret", SECRET), (folder / "submitted" / "zoe", OTHERS)):
+            (place / EXERCISE).mkdir(parents=True)
+            (place / EXERCISE / f"{EXERCISE}.ipynb").write_text(json.dumps(_answered(text)))
+        for entry in entries:
+            _make(folder / "submitted" / "anna", entry, folder / "secret" / EXERCISE)
+        try:
+            answers = answers_in(folder / "submitted" / "anna", EXERCISE)
+        except (UnusableSubmission, ValueError) as error:
+            assert str(folder) not in str(error), "a student reads where the instructor's folders are"
+            return
+    for text in answers.values():
+        assert len(text) <= LONGEST_ANSWER
+        assert SECRET not in text, "a file from outside the class was read"
+        assert OTHERS not in text, "the file of another student was read"
+        text.encode()
+
+
 def require_rebuilt(source: str) -> None:
     """Require that nbgrader gets a valid notebook, whatever the source is, and of bounded length."""
     rebuilt = rebuild_submission(_RELEASE, file_names(EXERCISE), {f"{EXERCISE}.py": source})
@@ -136,6 +159,15 @@ _CELLS = [
     nbformat.v4.new_code_cell("1 + 1", outputs=[nbformat.v4.new_output("stream", name="stdout", text="2")]),
 ]
 _SMALL = json.loads(nbformat.writes(nbformat.v4.new_notebook(cells=_CELLS)))
+
+
+def _answered(text: str) -> Any:
+    """Return a notebook with an answer."""
+    cell = nbformat.v4.new_markdown_cell(text, metadata=cell_metadata("question_1", points=2, solution=True))
+    return json.loads(nbformat.writes(nbformat.v4.new_notebook(cells=[cell])))
+
+
+_damaged_answers = odd.damaged_json([_answered("own")]).map(lambda value: json.dumps(value).encode())
 _damaged_notebooks = odd.damaged_json([_SMALL]).map(lambda value: json.dumps(value).encode())
 _notebooks = st.one_of(_damaged_notebooks, odd.mutated([json.dumps(_SMALL).encode()]), odd.blobs)
 _places = st.sampled_from(
@@ -147,10 +179,17 @@ _places = st.sampled_from(
         *("interfaces/interfaces.ipynb", "a/" * 200 + "deep.py", "x" * 255, "\udcff.py", "-rf", "\n"),
     )
 )
+_answers = st.builds(
+    Entry,
+    st.sampled_from((f"{EXERCISE}.ipynb", EXERCISE, f"{EXERCISE}/{EXERCISE}.ipynb")),
+    st.sampled_from(sorted(_MAKERS)),
+    st.one_of(odd.blobs, _damaged_answers),
+)
 _entries = st.builds(Entry, _places, st.sampled_from(sorted(_MAKERS)), st.one_of(odd.blobs, _notebooks))
 
 FUZZERS = (
     Fuzzer("files-notebook", "files", _notebooks, require_submission_or_reason),
     Fuzzer("files-folder", "files", st.lists(_entries, min_size=1, max_size=5), require_own_work, weight=0.7),
+    Fuzzer("files-answers", "files", st.lists(_answers, min_size=1, max_size=3), require_answers_or_reason),
     Fuzzer("files-rebuilt", "files", odd.texts, require_rebuilt, weight=0.3),
 )

@@ -20,7 +20,13 @@ _CALLBACK_ARGUMENTS: dict[str, dict[int | str | None, str]] = {
     "create_service": {2: "service", "callback": "service"},
     "create_timer": {1: "timer", "callback": "timer"},
     "send_goal_async": {1: "feedback", "feedback_callback": "feedback"},
-    "ActionServer": {"goal_callback": "goal", "cancel_callback": "cancel"},
+    "ActionServer": {
+        3: "execute",
+        "execute_callback": "execute",
+        "goal_callback": "goal",
+        "handle_accepted_callback": "accepted",
+        "cancel_callback": "cancel",
+    },
 }
 
 
