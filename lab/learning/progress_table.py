@@ -53,16 +53,15 @@ def _rows(row: ChapterProgress) -> Iterator[str]:
     parts = "".join(f"<td {LEFT}>{_bar(part, name)}</td>" for name, part in row.parts.items())
     yield f"<td {LEFT}>{_link(row.chapter.notebook, row.chapter.title)}</td><td>{row.chapter.minutes}</td>{parts}"
     for exercise, check in row.exercises:
-        name = _link(exercise.notebook, exercise.name)
-        checked = _checked(exercise, check)
-        yield f"<td {INDENTED}>{name}</td><td>{exercise.minutes}</td><td {LEFT} colspan='{len(row.parts)}'>{checked}</td>"
+        name = f"<td {INDENTED}>{_link(exercise.notebook, exercise.name)}</td><td>{exercise.minutes}</td>"
+        yield f"{name}<td {LEFT} colspan='{len(row.parts)}'>{_checked(exercise, check)}</td>"
 
 
 def _bar(part: Part, what: str) -> str:
     if not part.total:
         return str(part)
     label = f"{what}: {part.done} of {part.total}"
-    bar = f'<progress value="{part.done}" max="{part.total}" aria-label="{label}" style="width: 3em"></progress>'
+    bar = f'<progress value="{part.done}" max="{part.total}" aria-label="{label}" style="width: 2em"></progress>'
     return f"{bar} {part}"
 
 

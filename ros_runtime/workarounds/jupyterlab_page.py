@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-# What the button with the disk does, which then takes the focus; once more for the outputs of the cell, when it has ended.
+# What the button with the disk does, which then takes the focus; once more when the cell has ended, for its outputs.
 _SAVE = """{
 const panel = document.querySelector('.jp-NotebookPanel:not(.lm-mod-hidden)');
 const save = () => {
