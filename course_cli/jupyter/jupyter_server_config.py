@@ -1,4 +1,4 @@
-"""JupyterLab breaks long output between words."""
+"""JupyterLab has the course's style and its extension, and breaks long output between words."""
 
 from __future__ import annotations
 
@@ -7,4 +7,5 @@ from typing import Any
 
 c: Any = get_config()  # type: ignore[name-defined]  # noqa: F821  # Jupyter defines it
 c.LabApp.custom_css = True
+c.LabApp.extra_labextensions_path = [str(Path(__file__).with_name("labextensions"))]
 c.ServerApp.tornado_settings = {"static_custom_path": [str(Path(__file__).with_name("custom"))]}

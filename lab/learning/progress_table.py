@@ -15,9 +15,9 @@ from lab.learning.progress_file import read_entries
 from lab.learning.question import Question, read_questions
 from ros_runtime.self_checks import LastCheck, last_checks
 
-HEADS = ("Chapter", "Minutes", "Predictions", "Quiz", "Gaps", "Exercises: minutes, checks passed")
-LEFT = "style='text-align: left'"
-ONE_LINE = "style='text-align: left; white-space: nowrap'"
+HEADS = ("Chapter and its exercises", "Minutes", "Predictions", "Quiz", "Gaps")
+LEFT = "style='text-align: left; white-space: nowrap'"
+INDENTED = "style='text-align: left; white-space: nowrap; padding-left: 2em'"
 
 
 @dataclass(frozen=True)
@@ -126,34 +126,34 @@ class ProgressTable:
         sentence, notebook = next_step(self.chapters)
         titles = {row.chapter.notebook: row.chapter.title for row in self.chapters}
         heads = "".join(f"<th {LEFT}>{head}</th>" for head in HEADS)
-        rows = "".join(f"<tr>{''.join(_cells(row))}</tr>" for row in self.chapters)
+        rows = "".join(f"<tr>{cells}</tr>" for row in self.chapters for cells in _rows(row))
         return (
             f"<p><b>{sentence} {_link(notebook, titles.get(notebook, notebook.stem))}.</b></p>"
             f"<table><thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table>"
         )
 
 
-def _cells(row: ChapterProgress) -> Iterator[str]:
-    yield f"<td {LEFT}>{_link(row.chapter.notebook, row.chapter.title)}</td>"
-    yield f"<td>{row.chapter.minutes}</td>"
-    for name, part in row.parts.items():
-        yield f"<td {ONE_LINE}>{_bar(part, name)}</td>"
-    yield f"<td {LEFT}>{'<br>'.join(_exercise(exercise, check) for exercise, check in row.exercises)}</td>"
+def _rows(row: ChapterProgress) -> Iterator[str]:
+    """Return the cells of a chapter, then those of each of its exercises: all fit beside the robot's panel."""
+    parts = "".join(f"<td {LEFT}>{_bar(part, name)}</td>" for name, part in row.parts.items())
+    yield f"<td {LEFT}>{_link(row.chapter.notebook, row.chapter.title)}</td><td>{row.chapter.minutes}</td>{parts}"
+    for exercise, check in row.exercises:
+        name = f"<td {INDENTED}>{_link(exercise.notebook, exercise.name)}</td><td>{exercise.minutes}</td>"
+        yield f"{name}<td {LEFT} colspan='{len(row.parts)}'>{_checked(exercise, check)}</td>"
 
 
 def _bar(part: Part, what: str) -> str:
     if not part.total:
         return str(part)
     label = f"{what}: {part.done} of {part.total}"
-    bar = f'<progress value="{part.done}" max="{part.total}" aria-label="{label}" style="width: 3em"></progress>'
+    bar = f'<progress value="{part.done}" max="{part.total}" aria-label="{label}" style="width: 2em"></progress>'
     return f"{bar} {part}"
 
 
-def _exercise(exercise: Exercise, check: LastCheck | None) -> str:
-    link = f"{_link(exercise.notebook, exercise.name)} ({exercise.minutes})"
+def _checked(exercise: Exercise, check: LastCheck | None) -> str:
     if check is None:
-        return f"{link}: {_in_words(check)}"
-    return f"{link}: {_bar(Part(check.passed, check.total), exercise.name)}, {_when(check)}"
+        return _in_words(check)
+    return f"{_bar(Part(check.passed, check.total), exercise.name)} checks, {_when(check)}"
 
 
 def _in_words(check: LastCheck | None) -> str:

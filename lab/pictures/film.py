@@ -82,7 +82,7 @@ def film_of_messages(
     def postures(body: Humanoid) -> Iterator[None]:
         return set_postures(body, np.arange(count) / RATE / slow_motion, odometry, joints, objects)
 
-    return _film(postures, words, lambda: words, camera, file)
+    return _film(postures, words, lambda: words, camera, file, fitted=True)
 
 
 def set_postures(
@@ -121,14 +121,18 @@ def _film(
     caption: Callable[[], str],
     camera: str,
     file: str | Path | None,
+    *,
+    fitted: bool = False,
 ) -> HTML:
-    """Draw a frame for each posture; `caption` is called after the last frame."""
+    """Draw a frame for each posture, `fitted` to all of them; `caption` is called after the last frame."""
     body = body_to_draw()
     try:
         view = View(body, WIDTH, HEIGHT, shadows=False)
     except NoOpenGLError as error:
         return HTML(f"<p>{escape(words)}. No film: {escape(str(error))}</p>")
     try:
+        if fitted:
+            view.fit(camera, postures(body))
         frames = [Image.fromarray(view.picture(camera)) for _ in postures(body)]
     finally:
         view.close()

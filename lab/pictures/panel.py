@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import time
 from html import escape
 
 import ipywidgets
 from sidecar import Sidecar
 
-from ros_runtime.workarounds.jupyterlab_page import close_old_panel
-
-TITLE = "Robot"
+TITLE = "Robot"  # by which the course's extension of JupyterLab knows an old panel and closes it
 BEAT_PERIOD = 1.0  # s between two texts
 SILENCE = 8  # s without a text, after which the panel shows that nothing draws into it any more
 _STYLE = f"""<style>
@@ -34,12 +31,10 @@ class Panel:
     """
 
     def __init__(self, picture: ipywidgets.Image) -> None:
-        own = f"course-panel-{os.getpid()}"
-        close_old_panel(TITLE, kept=own)
         self._text = ipywidgets.HTML()
         self._next_beat = 0.0  # s, time.monotonic()
         self._box = ipywidgets.VBox([ipywidgets.HTML(_STYLE), picture, self._text])
-        self._box.add_class("course-live").add_class(own)
+        self._box.add_class("course-live")
         self._sidecar: Sidecar | None = None
         self.open()
 

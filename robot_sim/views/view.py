@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import copy
+import math
+from collections.abc import Iterable
 
 import mujoco
 import numpy as np
 
 from robot_sim.humanoid import Humanoid
 from ros_runtime.workarounds.gl_backend import open_context
+
+FILLED = (
+    0.95  # share of a picture's width or height that a fitted view fills, the middle being the centre of mass
+)
 
 
 def snapshot(humanoid: Humanoid, width: int = 640, height: int = 480, *, camera: str = "track") -> np.ndarray:
@@ -65,29 +71,31 @@ class View:
             ValueError: the model has no such camera; the message lists its cameras.
         """
         self._gl.make_current()
-        mujoco.mjv_updateScene(
-            self._model,
-            self._data,
-            self._option,
-            None,
-            self._camera(camera),
-            mujoco.mjtCatBit.mjCAT_ALL,
-            self._scene,
-        )
+        self._update_scene(self._camera(camera))
         mujoco.mjr_render(self._rectangle, self._scene, self._renderer)
         pixels = np.empty((self._rectangle.height, self._rectangle.width, 3), dtype=np.uint8)
         mujoco.mjr_readPixels(pixels, None, self._rectangle, self._renderer)
         return pixels[::-1].copy()  # OpenGL's first row is the lowest
 
+    def fit(self, camera: str, postures: Iterable[object]) -> None:
+        """Narrow a camera's view until the bodies that move fill it; each step of `postures` sets one posture."""
+        seen_from = self._camera(camera)
+        moving = self._model.body_weldid[self._model.geom_bodyid] > 0
+        filled = 0.0
+        for _ in postures:
+            self._update_scene(seen_from)
+            right, height, scale = self._from_middle(self._data.geom_xpos[moving])
+            for offset, half in ((right, self._rectangle.width / 2), (height, self._rectangle.height / 2)):
+                filled = max(filled, ((abs(offset) + self._model.geom_rbound[moving]) * scale).max() / half)
+        if 0 < filled < FILLED:
+            narrowed = (
+                math.tan(math.radians(self._model.cam_fovy[seen_from.fixedcamid]) / 2) * filled / FILLED
+            )
+            self._model.cam_fovy[seen_from.fixedcamid] = math.degrees(2 * math.atan(narrowed))
+
     def pixel_of(self, point: tuple[float, float, float]) -> tuple[float, float]:
         """Return the position of a point of the world (m) in the last picture, px from its left and upper edge."""
-        eyes = self._scene.camera  # the left and the right one
-        position, forward, up = (
-            np.mean([getattr(eye, name) for eye in eyes], axis=0) for name in ("pos", "forward", "up")
-        )
-        way = np.asarray(point) - position
-        scale = eyes[0].frustum_near / (way @ forward) * self._rectangle.height / 2 / eyes[0].frustum_top
-        right, height = way @ np.cross(forward, up), way @ up
+        right, height, scale = self._from_middle(np.asarray(point))
         return self._rectangle.width / 2 + right * scale, self._rectangle.height / 2 - height * scale
 
     def close(self) -> None:
@@ -95,6 +103,20 @@ class View:
         self._gl.make_current()
         self._renderer.free()
         self._gl.free()
+
+    def _update_scene(self, camera: mujoco.MjvCamera) -> None:
+        everything = mujoco.mjtCatBit.mjCAT_ALL
+        mujoco.mjv_updateScene(self._model, self._data, self._option, None, camera, everything, self._scene)
+
+    def _from_middle(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return how far (m) points (…, 3) are right of and above the camera's axis, and the scale there (px/m)."""
+        eyes = self._scene.camera  # the left and the right one
+        position, forward, up = (
+            np.mean([getattr(eye, name) for eye in eyes], axis=0) for name in ("pos", "forward", "up")
+        )
+        way = points - position
+        scale = eyes[0].frustum_near / (way @ forward) * self._rectangle.height / 2 / eyes[0].frustum_top
+        return way @ np.cross(forward, up), way @ up, scale
 
     def _camera(self, name: str) -> mujoco.MjvCamera:
         names = [self._model.camera(index).name for index in range(self._model.ncam)]

@@ -10,9 +10,9 @@ from ros_runtime.drawing.svg import escape, svg
 
 Kind = Literal["request", "answer", "message"]
 
-LANE_WIDTH = 250
+LEAST_LANE_WIDTH = 130  # px
 ROW_HEIGHT = 30
-LEFT = 100
+LEFT = 70  # px, for the times
 TOP = 74
 BOTTOM = 20
 NOTE_GAP = 10  # px between a note's dot and its text
@@ -49,22 +49,29 @@ def sequence_svg(arrows: Sequence[Arrow], *, title: str, participants: Sequence[
     lanes = list(
         dict.fromkeys([*(participants or ()), *(name for a in ordered for name in (a.sender, a.receiver))])
     )
-    centre = {name: LEFT + LANE_WIDTH // 2 + index * LANE_WIDTH for index, name in enumerate(lanes)}
+    lane_width = max(LEAST_LANE_WIDTH, *(_room(arrow, lanes) for arrow in ordered))
+    centre = {name: LEFT + lane_width // 2 + index * lane_width for index, name in enumerate(lanes)}
     notes = [
         centre[a.sender] + NOTE_GAP + LETTER_WIDTH * len(a.label) for a in ordered if a.sender == a.receiver
     ]
-    width = max(LEFT + LANE_WIDTH * len(lanes), *notes, 0)
+    width = max(LEFT + lane_width * len(lanes), *notes, 0)
     height = TOP + ROW_HEIGHT * (len(ordered) + 1) + BOTTOM
     parts: list[str] = []
     for name, x in centre.items():
-        parts += _lifeline(name, x, height)
+        parts += _lifeline(name, x, lane_width, height)
     for row, arrow in enumerate(ordered, start=1):
         parts += _arrow(arrow, centre, TOP + row * ROW_HEIGHT)
     return svg(parts, width=width, height=height, title=title, words=_in_words(ordered))
 
 
-def _lifeline(name: str, x: int, height: int) -> list[str]:
-    half = LANE_WIDTH // 2 - 20
+def _room(arrow: Arrow, lanes: Sequence[str]) -> int:
+    """Return the width (px) of lanes between which the label of an arrow fits."""
+    crossed = abs(lanes.index(arrow.sender) - lanes.index(arrow.receiver))
+    return LETTER_WIDTH * len(arrow.label) // crossed if crossed else 0
+
+
+def _lifeline(name: str, x: int, lane_width: int, height: int) -> list[str]:
+    half = lane_width // 2 - 12
     return [
         f'<line x1="{x}" y1="{TOP}" x2="{x}" y2="{height - BOTTOM}" stroke="#888888"/>',
         f'<rect x="{x - half}" y="{TOP - 34}" width="{2 * half}" height="28" rx="5" fill="#eef3f9" stroke="#8aa4c0"/>',

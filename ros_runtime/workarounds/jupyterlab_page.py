@@ -1,38 +1,28 @@
-"""Run a script in the page of JupyterLab that shows a notebook; it may only use what a user could click."""
+"""Have the page of JupyterLab save its notebook, by a script that only uses what a user could click."""
 
 from __future__ import annotations
 
-from string import Template
-
-# What the button with the disk does, which then takes the focus.
+# What the button with the disk does, which then takes the focus; once more when the cell has ended, for its outputs.
 _SAVE = """{
-const focused = document.activeElement;
-document.querySelector('.jp-NotebookPanel:not(.lm-mod-hidden) [data-command="docmanager:save"]')?.click();
-setTimeout(() => focused.focus({preventScroll: true}));
+const panel = document.querySelector('.jp-NotebookPanel:not(.lm-mod-hidden)');
+const save = () => {
+    const focused = document.activeElement;
+    panel?.querySelector('[data-command="docmanager:save"]')?.click();
+    setTimeout(() => focused.focus({preventScroll: true}));
+};
+save();
+const waiting = setInterval(() => {
+    const ended = panel?.querySelector('.jp-Notebook-ExecutionIndicator[data-status="idle"]');
+    if (panel?.isConnected && !(ended && panel.checkVisibility())) return;
+    clearInterval(waiting);
+    save();
+}, 500);
 }"""
-# A side bar closes a tab only if both events of the pointer lie on the cross of the tab.
-_CLOSE = Template("""
-const old = [...document.querySelectorAll('.jp-SideBar.jp-mod-right .lm-TabBar-tab')].find(
-    tab => tab.innerText.trim() === '$title' && !document.getElementById(tab.dataset.id)?.querySelector('.$kept'))
-const cross = old?.querySelector('.lm-TabBar-tabCloseIcon')
-if (cross) {
-    const {x, y, width, height} = cross.getBoundingClientRect()
-    const at = {bubbles: true, clientX: x + width / 2, clientY: y + height / 2}
-    for (const kind of ['pointerdown', 'pointerup']) cross.dispatchEvent(new PointerEvent(kind, at))
-}""")
 
 
 def save_notebook() -> None:
-    """Have JupyterLab save the notebook that is shown, while its cell runs on."""
+    """Have JupyterLab save the notebook that is shown, while its cell runs on, and again when the cell has ended."""
     _run(_SAVE)
-
-
-def close_old_panel(title: str, *, kept: str) -> None:
-    """Close a panel of the right side bar that an ended kernel has left behind.
-
-    A panel with an element of the class `kept` stays open.
-    """
-    _run(_CLOSE.substitute(title=title, kept=kept))
 
 
 def _run(script: str) -> None:

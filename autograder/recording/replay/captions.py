@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from autograder.recording.replay.recording import Kind, Moment
 
-MAX_LINES = 7  # of captions, without the line with the time
+MAX_LINES = 4  # of captions, without the line with the time
 EVENT_DURATION = 2.5  # s for which an event is shown; a failed check stays
 FEEDBACK_DURATION = 1.0  # s
 COLOURS = {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import BinaryIO, Literal
@@ -13,8 +13,8 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from autograder.recording.replay.body import RecordedBody
-from autograder.recording.replay.captions import MAX_LINES, captions
-from autograder.recording.replay.recording import Moment, Recording, Span
+from autograder.recording.replay.captions import Caption, captions
+from autograder.recording.replay.recording import Recording, Span
 from robot_sim.views.film import save_frames
 from robot_sim.views.view import View
 
@@ -70,33 +70,37 @@ def _frames(recording: Recording, span: Span, camera: str, rate: float) -> list[
     """Return the pictures of a span, `rate` of them for each second of the recording."""
     body = RecordedBody(recording)
     view = View(body.humanoid, WIDTH, HEIGHT, shadows=False)
-    frames = []
-    try:
-        for number in range(max(1, math.ceil((span.end - span.start) * rate) + 1)):
-            t = min(span.start + number / rate, span.end)
+    count = max(1, math.ceil((span.end - span.start) * rate) + 1)
+    times = [min(span.start + number / rate, span.end) for number in range(count)]
+    caption_width = int((WIDTH - 2 * MARGIN) / _font().getlength("n"))  # characters
+    texts = [captions(t, recording.moments, caption_width) for t in times]
+    below = max(map(len, texts)) * LINE_HEIGHT + 2 * MARGIN  # px
+
+    def postures() -> Iterator[None]:
+        for t in times:
             body.show(t)
-            frames.append(with_captions(view.picture(camera), t, recording.moments))
+            yield
+
+    try:
+        view.fit(camera, postures())
+        return [
+            _with_captions(view.picture(camera), lines, below)
+            for lines, _ in zip(texts, postures(), strict=True)
+        ]
     finally:
         view.close()
-    return frames
 
 
-def with_captions(picture: np.ndarray, t: float, moments: Sequence[Moment]) -> Image.Image:
-    """Return a picture (height x width x 3, RGB) with the captions for a time (s)."""
+def _with_captions(picture: np.ndarray, lines: Sequence[Caption], below: int) -> Image.Image:
+    """Return a picture (height x width x 3, RGB) with captions in `below` px below it."""
     height, width = picture.shape[:2]
-    image = Image.new("RGB", (width, height + band_height()), BACKGROUND)
+    image = Image.new("RGB", (width, height + below), BACKGROUND)
     image.paste(Image.fromarray(picture), (0, 0))
     draw = ImageDraw.Draw(image)
-    caption_width = max(20, int((width - 2 * MARGIN) / draw.textlength("n", font=_font())))  # characters
-    for number, caption in enumerate(captions(t, moments, caption_width)):
+    for number, caption in enumerate(lines):
         place = (MARGIN, height + MARGIN + number * LINE_HEIGHT)
         draw.text(place, caption.text, font=_font(), fill=caption.colour)
     return image
-
-
-def band_height() -> int:
-    """Return the height (px) of the captions below a picture."""
-    return (MAX_LINES + 1) * LINE_HEIGHT + 2 * MARGIN
 
 
 @cache

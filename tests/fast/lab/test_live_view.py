@@ -68,7 +68,6 @@ def robot(monkeypatch: pytest.MonkeyPatch) -> Iterator[Robot]:
     monkeypatch.setattr(live_view, "set_current_posture", robot.set_posture)
     monkeypatch.setattr(live_view, "is_notebook_of_a_lab", lambda: True)
     monkeypatch.setattr(live_view, "robot_of_another_notebook", lambda: robot.taken)
-    monkeypatch.setattr(panel, "close_old_panel", lambda *_, **__: None)
     monkeypatch.setattr(panel, "BEAT_PERIOD", 0.0)
     yield robot
     live_view.stop_watching()

@@ -94,7 +94,7 @@ def test_the_table_has_a_bar_for_each_part_and_links_that_lead_somewhere(
     monkeypatch.chdir(ROOT)  # the folder of start_here.ipynb
     html = lab.show_progress()._repr_html_()
     assert 'value="5" max="7" aria-label="battery_service: 5 of 7"' in html
-    assert "5/7, 22 Nov 19:40" in html
+    assert "5/7 checks, 22 Nov 19:40" in html
     assert 'aria-label="Predictions: 1 of ' in html
     links = re.findall(r'href="([^"]+)"', html)
     assert len(links) > 12

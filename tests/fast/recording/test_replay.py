@@ -28,7 +28,7 @@ from autograder.authoring.evidence import events as ev
 from autograder.recording.entry import METADATA
 from autograder.recording.replay import web
 from autograder.recording.replay.body import RecordedBody
-from autograder.recording.replay.film import FRAME_RATE, band_height, film
+from autograder.recording.replay.film import FRAME_RATE, HEIGHT, film
 from autograder.recording.replay.recording import Kind, Moment, Recording, Span, UnusableRecording, span_of
 from autograder.recording.replay.text import time_line
 from course_cli.app import app
@@ -91,21 +91,24 @@ def test_a_film_shows_the_recorded_robot_and_captions_of_the_events(fallen: Any,
     assert len(frames) == count == pytest.approx((FELL_AT + 0.3 - FALL) * FRAME_RATE + 1, abs=1)
     body = Humanoid("table")
     view = View(body, 480, 360, shadows=False)
-    height = frames[0].shape[0] - band_height()
     shown = {}
-    for name, t in (("upright", FALL), ("later", FALL + 8 / FRAME_RATE)):
-        nearest = min(places, key=lambda at: abs(at - t))
-        body.data.qpos[:] = places[nearest]
+
+    def show(t: float) -> None:
+        body.data.qpos[:] = places[min(places, key=lambda at: abs(at - t))]
         mujoco.mj_forward(body.model, body.data)
+
+    view.fit("side", (show(FALL + number / FRAME_RATE) for number in range(count)))
+    for name, t in (("upright", FALL), ("later", FALL + 8 / FRAME_RATE)):
+        show(t)
         shown[name] = view.picture("side").astype(int)
     view.close()
 
     def unlike(frame: np.ndarray, picture: np.ndarray) -> float:
-        return float((abs(frame[:height] - picture) > 40).any(axis=2).mean())
+        return float((abs(frame[:HEIGHT] - picture) > 40).any(axis=2).mean())
 
     assert unlike(frames[0], shown["upright"]) < 0.01 < unlike(frames[0], shown["later"])
     assert unlike(frames[8], shown["later"]) < 0.01 < unlike(frames[8], shown["upright"])
-    red = [((frame[height:, :, 0] > 200) & (frame[height:, :, 2] < 150)).sum() for frame in frames]
+    red = [((frame[HEIGHT:, :, 0] > 200) & (frame[HEIGHT:, :, 2] < 150)).sum() for frame in frames]
     before = int((FELL_AT - FALL) * FRAME_RATE)
     assert max(red[:before]) < 10
     assert min(red[before + 1 :]) > 40
@@ -250,7 +253,7 @@ def test_the_command_writes_a_film_around_the_lost_point(fallen: Any, tmp_path: 
     with Image.open(tmp_path / "film.gif") as moving:
         assert (moving.format, moving.n_frames) == ("GIF", 6)
         moving.seek(5)
-        last = np.asarray(moving.convert("RGB")).astype(int)[-band_height() :]
+        last = np.asarray(moving.convert("RGB")).astype(int)[HEIGHT:]
     assert ((last[:, :, 0] > 200) & (last[:, :, 2] < 150)).sum() > 40
 
 

@@ -1,0 +1,46 @@
+// What JupyterLab lacks for the course. A prebuilt extension, written by hand: it needs no package of JupyterLab.
+
+const PANEL = "Robot"; // the title that lab/pictures/panel.py gives to it
+const LAYOUT_TIMEOUT = 20; // s, for a chapter on a busy machine
+const STEADY = 5; // times that a heading was seen at the same place
+const PERIOD = 200; // ms
+
+const pause = () => new Promise((resolve) => setTimeout(resolve, PERIOD));
+
+// A notebook that is opened again shows its panel again, beside the one of its closed tab.
+function keepNewestPanel(shell) {
+  const panels = [...shell.widgets("right")].filter((widget) => widget.title.label === PANEL);
+  panels.slice(0, -1).forEach((panel) => panel.dispose());
+}
+
+// JupyterLab scrolls as soon as a notebook is read, when its cells have no height yet.
+async function land(shell, path, fragment) {
+  const input = new AbortController();
+  for (const kind of ["wheel", "keydown", "pointerdown"]) {
+    document.addEventListener(kind, () => input.abort(), { capture: true, signal: input.signal });
+  }
+  const id = CSS.escape(decodeURIComponent(fragment.slice(1)));
+  const end = Date.now() + 1000 * LAYOUT_TIMEOUT;
+  for (let seen = 0, place = null; seen < STEADY && Date.now() < end && !input.signal.aborted; await pause()) {
+    const notebook = [...shell.widgets("main")].find((widget) => widget.context?.path === path);
+    const heading = notebook?.node.querySelector(`[id="${id}"], [data-jupyter-id="${id}"]`);
+    const top = heading?.getBoundingClientRect().top;
+    seen = heading && top === place ? seen + 1 : 0;
+    heading?.scrollIntoView();
+    place = heading?.getBoundingClientRect().top;
+  }
+  input.abort();
+}
+
+const plugin = {
+  id: "humanoid-course:desk",
+  autoStart: true,
+  activate: ({ commands, shell }) => {
+    shell.layoutModified.connect(keepNewestPanel);
+    commands.commandExecuted.connect((_, { id, args }) => {
+      if (id === "rendermime:handle-local-link" && args.id) land(shell, args.path, args.id);
+    });
+  },
+};
+
+(window._JUPYTERLAB ??= {})["humanoid-course"] = { init: () => {}, get: async () => () => plugin };
