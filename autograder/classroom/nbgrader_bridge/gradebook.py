@@ -63,11 +63,12 @@ class CourseGradebook:
         Raises `NbgraderError` when nbgrader fails.
         """
         grade = entry.grade
+        page = self._folder / "feedback" / grade.student / grade.exercise / f"{grade.exercise}.html"
         if grade.status == "not graded":
             record(self._folder, grade)
+            page.unlink(missing_ok=True)  # it would show the points of an earlier grade
             return None
         self._assign(grade.exercise)
-        page = self._folder / "feedback" / grade.student / grade.exercise / f"{grade.exercise}.html"
         submission = self._submission(entry)
         is_entered = not self._is_new and self._holds(grade, submission)
         if grade.status == "to mark":

@@ -210,9 +210,11 @@ def test_each_of_several_files_is_shown_in_its_own_cell(gradebook):
     assert "This file was not handed in." in page
 
 
-def test_a_reason_makes_a_grade_not_graded(gradebook):
+def test_a_reason_makes_a_grade_not_graded_and_removes_the_page_of_an_earlier_grade(gradebook):
+    page = gradebook.enter(Entry(grade_of("anna"), SOURCES))
     grade = dataclasses.replace(grade_of("anna"), reason="the machine was too busy")
     assert gradebook.enter(Entry(grade, SOURCES)) is None
+    assert not page.exists()
 
 
 def test_a_course_that_would_execute_submissions_is_not_opened(course, monkeypatch):
