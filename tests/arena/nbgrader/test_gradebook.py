@@ -67,6 +67,15 @@ def test_grading_again_replaces_the_score(gradebook, course):
     assert score == highest
 
 
+def test_late_work_never_has_less_than_no_points(gradebook):
+    everything = {check.id: FAILED for check in EXERCISE.checks}
+    late = Entry(grade_of("anna", **everything), SOURCES, late_points=3.0)
+    page = gradebook.enter(late)
+    assert "(Score: 0.0 / " in page.read_text()
+    written = page.stat().st_mtime_ns
+    assert gradebook.enter(late).stat().st_mtime_ns == written
+
+
 def test_unchanged_grades_are_not_entered_again_but_new_ones_are(gradebook, course):
     entries = [
         Entry(grade_of("anna"), SOURCES),
