@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
@@ -20,6 +21,8 @@ from autograder.classroom.pages.pages import FOR_INSTRUCTOR, FOR_STUDENTS, stude
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.recording.kept import FOLDER as RECORDINGS
+from autograder.recording.kept import SUFFIX
+from autograder.recording.replay.recording import Recording
 from ros_runtime.course_error import CourseError
 
 TABLE = "requests.csv"
@@ -158,11 +161,15 @@ def _form(path: Path) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Evidence:
-    """A request, the grade that it is about, and the same program graded again with the same seed."""
+    """A request, the grade that it is about, and the same program graded again with the same seed.
+
+    `recordings` are those of the second run in which the check was judged.
+    """
 
     request: RegradeRequest
     before: Grade
     again: Grade
+    recordings: Sequence[Path] = ()
 
     @property
     def differences(self) -> Sequence[str]:
@@ -207,8 +214,11 @@ class Evidence:
             ),
             f"- all verdicts: {again}/{FOR_INSTRUCTOR}/{request.student}/{request.exercise}.html; the student's page: "
             f"{again}/{FOR_STUDENTS}/{request.student}/{request.exercise}.html",
-            f"- recordings: {again}/{RECORDINGS}/{request.student}/{request.exercise}/; a film of one: ./course replay "
-            f"FILE --film film.webp{_around(check)}",
+            *(
+                ["- recordings of the second run; --film film.webp makes a film of one:"]
+                * bool(self.recordings)
+            ),
+            *(f"      ./course replay {shlex.quote(str(path))}{_around(check)}" for path in self.recordings),
             f"- then write the state ({', '.join(STATES[1:])}) and your name to {TABLE}. No command changes the grade: "
             "to change points, use Formgrader. If it was not graded, or after you corrected a wrong file or a time in "
             "dates.yaml, run the same ./course grade with --resume.",
@@ -260,7 +270,14 @@ def collect_evidence(request: RegradeRequest, graded: Path, folder: Path, jobs: 
         Console(quiet=True),
         BatchRequest(submitted=place / "submitted", out=out, jobs=jobs, seed=before.seed, record=True),
     )
-    evidence = Evidence(request, before, read_grades(out / GRADES)[0])
+    again = read_grades(out / GRADES)[0]
+    check = find_check(again, request.check)
+    recordings = [
+        path
+        for path in sorted((out / RECORDINGS / request.student / request.exercise).glob(f"*{SUFFIX}"))
+        if check and any(moment.check == check.id for moment in Recording.read(path).moments)
+    ]
+    evidence = Evidence(request, before, again, recordings)
     write_atomically(place / "reply.md", evidence.reply())
     return evidence
 
@@ -281,12 +298,16 @@ def _around(check: CheckVerdict | None) -> str:
     return f" --around {check.id}" if check and not check.hidden else ""
 
 
+def _at(check: CheckVerdict) -> str:
+    return "" if check.robot_time is None else f" (at {check.robot_time:.1f} s)"
+
+
 def _in_words(check: CheckVerdict) -> Sequence[str]:
     """Return paragraphs on a verdict as the student may read it."""
     return [
         f"The check “{check.title}” {check.status}: {check.points:g} of {check.max_points} points.",
         *([f"It judges {check.promise}."] if check.promise else []),
         *([f"Expected: {check.expected}"] if check.expected else []),
-        *([f"Observed: {check.observed}"] if check.observed else []),
+        *([f"Observed: {check.observed}{_at(check)}"] if check.observed else []),
         *([f"Next: {check.help}"] if check.help else []),
     ]
