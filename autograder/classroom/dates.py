@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date, datetime, time, timedelta, timezone
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Annotated, Any
 from zoneinfo import ZoneInfo
@@ -20,6 +21,7 @@ from ros_runtime.course_error import CourseError
 
 DATES = "dates.yaml"
 DAY = timedelta(days=1)
+MAX_NAMED = 5  # students whose time is unknown
 _END_OF_DAY = time(23, 59, 59)
 
 
@@ -84,6 +86,10 @@ class Dates(BaseModel):
         moment = self.extensions.get(student, {}).get(exercise) or self.due.get(exercise)
         return self._aware(moment) if moment else None
 
+    def is_extended(self, student: str, exercise: str) -> bool:
+        """Whether this student has an extension."""
+        return exercise in self.extensions.get(student, {})
+
     def time_of(self, student: str, exercise: str, timestamp: str) -> datetime | None:
         """Return when the work was handed in; `timestamp` is the platform's, or "". None if nobody knows."""
         if written := self.handed_in.get(student, {}).get(exercise):
@@ -109,7 +115,7 @@ class Deadlines:
         """Return the grades, each with what it loses for being late.
 
         A student's late days are used in the order in which the work was handed in, so later work never changes an
-        earlier grade. Work with an unknown time loses nothing.
+        earlier grade. Work with an unknown time loses nothing. Work in time by an extension says so.
         """
         late: dict[tuple[str, str], Late] = {}
         left: dict[str, int] = {}
@@ -126,6 +132,9 @@ class Deadlines:
             due = self.dates.due_time(grade.student, grade.exercise)
             grace = timedelta(minutes=self.dates.late.grace_minutes)
             if due is None or moment <= due + grace:
+                if due and self.dates.is_extended(grade.student, grade.exercise):
+                    in_time = f"{self._in_words(grade, moment, due)}: in time."
+                    late[grade.student, grade.exercise] = Late(0.0, in_time)
                 continue
             has = left.setdefault(grade.student, self.dates.late.late_days)
             late[grade.student, grade.exercise], left[grade.student] = self._late(grade, moment, due, has)
@@ -134,9 +143,7 @@ class Deadlines:
     def _late(self, grade: Grade, moment: datetime, due: datetime, has: int) -> tuple[Late, int]:
         """Return what one late submission loses, and how many of `has` late days the student has left."""
         rule, days = self.dates.late, math.ceil((moment - due) / DAY)
-        words = [
-            f"Handed in {self.dates.in_words(moment)}, due {self.dates.in_words(due)}: {_days(days)} late"
-        ]
+        words = [f"{self._in_words(grade, moment, due)}: {_days(days)} late"]
         if rule.accepted_days is not None and days > rule.accepted_days:
             words.append(f"work is accepted until {_days(rule.accepted_days)} after the due time")
             return Late(float(grade.max_score), "; ".join(words) + ": no points."), has
@@ -150,14 +157,24 @@ class Deadlines:
         words.append(f"{_days(days - free)} × {rule.percent_per_day:g} %")
         if percent < rule.percent_per_day * (days - free):
             words.append(f"at most {rule.at_most_percent:g} %")
-        cut = f"{percent:g} % of {grade.max_score} points, {points:g}, are deducted."
-        return Late(points, f"{'; '.join(words)}: {cut}"), has - free
+        cut = f"{percent:g} % of {grade.max_score} points, {points:g}, are deducted"
+        floor = ", but not below 0" if grade.earned is not None and grade.earned < points else ""
+        return Late(points, f"{'; '.join(words)}: {cut}{floor}."), has - free
+
+    def _in_words(self, grade: Grade, moment: datetime, due: datetime) -> str:
+        extended = " (extended)" if self.dates.is_extended(grade.student, grade.exercise) else ""
+        return f"Handed in {self.dates.in_words(moment)}, due {self.dates.in_words(due)}{extended}"
 
     def notes(self, grades: Sequence[Grade], timestamps: Mapping[tuple[str, str], str]) -> Sequence[str]:
         """Return sentences for the instructor: late work, unknown times, and students of the file without work."""
         late = [f"{each.student} · {each.exercise}: {each.late.reason}" for each in grades if each.late]
-        named = {*self.dates.extensions, *self.dates.handed_in}
-        strangers = ", ".join(sorted(named - {grade.student for grade in grades}))
+        students = {grade.student for grade in grades}
+        strangers = ", ".join(
+            f"{name} (their folder may be {close[0]})"
+            if (close := get_close_matches(name, students))
+            else name
+            for name in sorted({*self.dates.extensions, *self.dates.handed_in} - students)
+        )
         return [
             *late,
             *self._without_time({(each.student, each.exercise): "" for each in grades} | dict(timestamps)),
@@ -178,13 +195,20 @@ class Deadlines:
         return [*late, *self._without_time(timestamps)]
 
     def _without_time(self, timestamps: Mapping[tuple[str, str], str]) -> Sequence[str]:
-        unknown = ", ".join(
-            " · ".join(key)
-            for key, timestamp in sorted(timestamps.items())
-            if self.dates.due_time(*key) and self.dates.time_of(*key, timestamp) is None
-        )
-        hint = f"time unknown, so nothing is deducted; write it to handed_in in {self.path}"
-        return [f"{unknown}: {hint}"] if unknown else []
+        unknown: dict[str, list[str]] = {}
+        for key, timestamp in sorted(timestamps.items()):
+            if self.dates.due_time(*key) and not self.dates.time_of(*key, timestamp):
+                unknown.setdefault(key[1], []).append(key[0])
+        return [
+            f"{exercise}: time unknown, so nothing is deducted: {_named(students)}; write the times of those who were "
+            f"late to handed_in in {self.path}"
+            for exercise, students in unknown.items()
+        ]
+
+
+def _named(students: Sequence[str]) -> str:
+    more = len(students) - MAX_NAMED
+    return ", ".join(students[:MAX_NAMED]) + (f" and {more} more" if more > 0 else "")
 
 
 def _days(count: int) -> str:

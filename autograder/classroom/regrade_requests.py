@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
@@ -20,6 +21,8 @@ from autograder.classroom.pages.pages import FOR_INSTRUCTOR, FOR_STUDENTS, stude
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import CheckVerdict, Grade
 from autograder.recording.kept import FOLDER as RECORDINGS
+from autograder.recording.kept import SUFFIX
+from autograder.recording.replay.recording import Recording
 from ros_runtime.course_error import CourseError
 
 TABLE = "requests.csv"
@@ -38,7 +41,7 @@ class RegradeRequest:
     """One request, as a row of requests.csv.
 
     Attributes:
-        check: the id, or the title, of a check; students see hidden checks as "Hidden check 3".
+        check: the id, or the title, of a check, for hidden checks "Hidden check 3"; "" for the whole grade.
         state: "open", or the decision that a person has written: "answered", "changed" or "refused".
         by: the person who decided.
         second_run: the result of grading the same program again with the same seed; "" before it has run.
@@ -88,26 +91,33 @@ def write_state(folder: Path, requests: Sequence[RegradeRequest]) -> None:
     write_atomically(folder / TABLE, csv_text(_HEADING, rows))
 
 
-def new_requests(inbox: Path, known: Sequence[RegradeRequest]) -> list[RegradeRequest]:
-    """Read the forms and tables in a folder, or one table; return the requests that are not known yet.
+def new_requests(
+    inbox: Path, known: Sequence[RegradeRequest]
+) -> tuple[list[RegradeRequest], list[CourseError]]:
+    """Read the forms and tables in a folder, or one table.
 
-    Raises:
-        UnusableBatch: a table cannot be read.
+    Returns the requests that are not known yet, and an error for each file that cannot be used.
     """
     paths = sorted(inbox.iterdir()) if inbox.is_dir() else [inbox]
     contents = {request.content for request in known}
     number = max((request.number for request in known), default=0)
     found: list[RegradeRequest] = []
+    unusable: list[CourseError] = []
     for path in paths:
         if path.suffix not in (*_FORMS, ".csv") or path.is_symlink() or path.name == TABLE:
             continue
-        for asked in _rows_of(path) if path.suffix == ".csv" else [_form(path)]:
+        try:
+            rows = list(_rows_of(path)) if path.suffix == ".csv" else [_form(path)]
+        except CourseError as error:
+            unusable.append(error)
+            continue
+        for asked in rows:
             request = RegradeRequest(number + 1, **asked)
             if request.content not in contents:
                 contents.add(request.content)
                 found.append(request)
                 number += 1
-    return found
+    return found, unusable
 
 
 def _rows_of(path: Path) -> Iterator[dict[str, str]]:
@@ -139,7 +149,7 @@ def _form(path: Path) -> dict[str, str]:
             lines = asked.setdefault(name, [match[2].strip()])
         else:
             lines.append(line.strip())
-    if missing := [name for name in ("student", "exercise", "check") if not asked.get(name, [""])[0]]:
+    if missing := [name for name in ("student", "exercise") if not asked.get(name, [""])[0]]:
         raise UnusableRequests(
             f"{path} has no line {missing[0]!r}: expected student:, exercise:, check: and why:"
         )
@@ -150,15 +160,21 @@ def _form(path: Path) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Evidence:
-    """A request, the grade that it is about, and the same program graded again with the same seed."""
+    """A request, the grade that it is about, and the same program graded again with the same seed.
+
+    `recordings` are those of the second run in which the check was judged.
+    """
 
     request: RegradeRequest
     before: Grade
     again: Grade
+    recordings: Sequence[Path] = ()
 
     @property
     def differences(self) -> Sequence[str]:
-        """A line for each check whose verdict is another one; empty if both runs agree."""
+        """A line for each check whose verdict is another one; empty if both runs agree, or one was not graded."""
+        if "not graded" in (self.before.status, self.again.status):
+            return []
         old = {check.id: check for check in self.before.checks}
         return [
             f"{check.id}: {was.status} before, {check.status} now"
@@ -169,11 +185,10 @@ class Evidence:
     @property
     def result(self) -> str:
         """The result of the second run, for the table."""
-        if "not graded" in (self.before.status, self.again.status):
-            return f"{_score(self.before)} before, {_score(self.again)} now"
-        return (
-            f"DIFFERS: {'; '.join(self.differences)}" if self.differences else f"same: {_score(self.again)}"
-        )
+        if self.differences:
+            return f"DIFFERS: {'; '.join(self.differences)}"
+        before, now = _points(self.before), _points(self.again)
+        return f"same: {now}" if before == now else f"{before} before, {now} now"
 
     def reply(self) -> str:
         """Return the draft of the reply as Markdown, with the evidence for the instructor below it."""
@@ -181,13 +196,15 @@ class Evidence:
         name = cell_names(self.again.checks)[check.id] if check else ""
         seen = next((each for each in student_view(self.again).checks if each.id == name), None)
         again = f"{request.number}/graded"
+        before, now = _points(self.before), _points(self.again)
         lines = [
-            f"# Request {request.number}: {request.student}, {request.exercise}, {request.check}",
+            f"# Request {request.number}: {request.student}, {request.exercise}, {request.check or 'the whole grade'}",
             f"The student wrote: “{request.why}”" if request.why else "The student gave no reason.",
             "## Draft of the reply",
             f"I graded the program that you handed in again (fingerprint {self.again.program}), with the same inputs: "
-            f"{_score(self.again)}, {'as' if self.again.score == self.before.score else _score(self.before)} before.",
-            *(_in_words(seen) if seen else ["No single check is concerned, see the page of your exercise."]),
+            f"{now}, {'as' if now == before else before} before.",
+            *([self.before.late.reason] if self.before.late else []),
+            *(_in_words(seen) if seen else ["The page of your exercise has all checks."]),
             "## For you",
             f"- second run: {self.result}",
             *(
@@ -196,10 +213,14 @@ class Evidence:
             ),
             f"- all verdicts: {again}/{FOR_INSTRUCTOR}/{request.student}/{request.exercise}.html; the student's page: "
             f"{again}/{FOR_STUDENTS}/{request.student}/{request.exercise}.html",
-            f"- recordings: {again}/{RECORDINGS}/{request.student}/{request.exercise}/; a film of one: ./course replay "
-            f"FILE --film film.webp{_around(check)}",
+            *(
+                ["- recordings of the second run; --film film.webp makes a film of one:"]
+                * bool(self.recordings)
+            ),
+            *(f"      ./course replay {shlex.quote(str(path))}{_around(check)}" for path in self.recordings),
             f"- then write the state ({', '.join(STATES[1:])}) and your name to {TABLE}. No command changes the grade: "
-            "to change points, use Formgrader.",
+            "to change points, use Formgrader. If it was not graded, or after you corrected a wrong file or a time in "
+            "dates.yaml, run the same ./course grade with --resume.",
         ]
         return "\n\n".join(lines) + "\n"
 
@@ -227,7 +248,7 @@ def collect_evidence(request: RegradeRequest, graded: Path, folder: Path, jobs: 
     )
     if before is None:
         raise UnusableRequests(f"{graded / GRADES} has no grade of {request.student} for {request.exercise}")
-    if before.checks and find_check(before, request.check) is None:
+    if request.check and before.checks and find_check(before, request.check) is None:
         titles = "; ".join(check.title for check in student_view(before).checks)
         raise UnusableRequests(f"{request.exercise} has no check {request.check!r}; it has: {titles}"[:1000])
     program = graded / SOURCES / request.exercise / request.student
@@ -244,7 +265,14 @@ def collect_evidence(request: RegradeRequest, graded: Path, folder: Path, jobs: 
         Console(quiet=True),
         BatchRequest(submitted=place / "submitted", out=out, jobs=jobs, seed=before.seed, record=True),
     )
-    evidence = Evidence(request, before, read_grades(out / GRADES)[0])
+    again = read_grades(out / GRADES)[0]
+    check = find_check(again, request.check)
+    recordings = [
+        path
+        for path in sorted((out / RECORDINGS / request.student / request.exercise).glob(f"*{SUFFIX}"))
+        if check and any(moment.check == check.id for moment in Recording.read(path).moments)
+    ]
+    evidence = Evidence(request, before, again, recordings)
     write_atomically(place / "reply.md", evidence.reply())
     return evidence
 
@@ -256,12 +284,17 @@ def _texts(folder: Path) -> Mapping[str, str]:
     return {path.name: path.read_text(encoding="utf-8", errors="surrogateescape") for path in paths}
 
 
-def _score(grade: Grade) -> str:
-    return "not graded" if grade.score is None else f"{grade.score:g} of {grade.max_score} points"
+def _points(grade: Grade) -> str:
+    """Return the points without a deduction for late work, which a second run does not have."""
+    return "not graded" if grade.earned is None else f"{grade.earned:g} of {grade.max_score} points"
 
 
 def _around(check: CheckVerdict | None) -> str:
     return f" --around {check.id}" if check and not check.hidden else ""
+
+
+def _at(check: CheckVerdict) -> str:
+    return "" if check.robot_time is None else f" (at {check.robot_time:.1f} s)"
 
 
 def _in_words(check: CheckVerdict) -> Sequence[str]:
@@ -270,6 +303,6 @@ def _in_words(check: CheckVerdict) -> Sequence[str]:
         f"The check “{check.title}” {check.status}: {check.points:g} of {check.max_points} points.",
         *([f"It judges {check.promise}."] if check.promise else []),
         *([f"Expected: {check.expected}"] if check.expected else []),
-        *([f"Observed: {check.observed}"] if check.observed else []),
+        *([f"Observed: {check.observed}{_at(check)}"] if check.observed else []),
         *([f"Next: {check.help}"] if check.help else []),
     ]

@@ -58,7 +58,7 @@ class Grade:
     """Every verdict on one submission. One check that could not be judged makes the submission not graded.
 
     `seed` drew the inputs of its scenarios; None for an essay, and in records of an earlier version. `program` is the
-    fingerprint of what was graded; "" where it could not be read. `late` is None for work that is not late.
+    fingerprint of what was graded; "" where it could not be read. `late`: None for work in time without an extension.
     """
 
     exercise: str

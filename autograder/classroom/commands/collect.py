@@ -82,7 +82,8 @@ def collect(
             markup=False,
         )
     _print_summary(console, reading, placed, out)
-    for line in deadlines.lateness(choice.timestamps) if deadlines else ():
+    times = {key: time for key, time in choice.timestamps.items() if key not in placed.unchanged}
+    for line in deadlines.lateness(times) if deadlines else ():
         console.print(line, style="yellow", markup=False, soft_wrap=True)
     raise typer.Exit(COMMAND_FAILED if reading.refused or placed.refused else 0)
 

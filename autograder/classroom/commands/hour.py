@@ -32,7 +32,8 @@ def hour(
 ) -> None:
     """Show at which checks students are stuck, from the self-checks that they share, until Ctrl-C."""
     console = Console(highlight=False)
-    console.print(f"open {out} in a browser; it is renewed every {PERIOD} s. Stop with Ctrl-C.", markup=False)
+    renewed = "" if once else f"; it is renewed every {PERIOD} s. Stop with Ctrl-C"
+    console.print(f"open {out} in a browser{renewed}.", markup=False)
     try:
         while True:
             write_html(

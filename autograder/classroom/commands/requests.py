@@ -45,13 +45,16 @@ def requests(
     """
     console = Console(highlight=False)
     out.mkdir(parents=True, exist_ok=True)
-    failed = False
     with locked(out):
         state = read_state(out)
-        state += new_requests(inbox, state)
+        asked, unusable = new_requests(inbox, state)
+        state += asked
         write_state(out, state)
+        for problem in unusable:
+            console.print(f"left out: {problem}", style="red", markup=False)
+        failed = bool(unusable)
         for index, request in enumerate(state):
-            if request.second_run:
+            if request.second_run or request.state != "open":
                 continue
             console.print(f"grading again: {request.student} · {request.exercise}", style="dim", markup=False)
             try:
@@ -68,7 +71,13 @@ def requests(
         table.add_column(title, overflow="fold")
     for request in state:
         colour = "bold red" if request.second_run.startswith("DIFFERS") else ""
-        cells = [str(request.number), request.student, request.exercise, request.check, request.state]
+        cells = [
+            str(request.number),
+            request.student,
+            request.exercise,
+            request.check or "all",
+            request.state,
+        ]
         table.add_row(*map(Text, cells), Text(request.second_run or "not run", colour))
     console.print(table)
     console.print(

@@ -64,17 +64,17 @@ class CourseGradebook:
         Raises `NbgraderError` when nbgrader fails.
         """
         grade = entry.grade
+        page = self._folder / "feedback" / grade.student / grade.exercise / f"{grade.exercise}.html"
         if grade.status == "not graded":
             record(self._folder, grade)
+            page.unlink(missing_ok=True)  # it would show the points of an earlier grade
             return None
         self._assign(grade.exercise)
-        page = self._folder / "feedback" / grade.student / grade.exercise / f"{grade.exercise}.html"
         submission = self._submission(entry)
         is_entered = not self._is_new and self._holds(grade, submission)
         if grade.status == "to mark":
             return self._leave_to_a_person(entry, submission, page, is_entered)
-        is_entered = is_entered and self._penalty(grade) == entry.late_points
-        if is_entered and _is_whole(page):
+        if is_entered and self._is_deducted(entry) and _is_whole(page):
             return page
         page.unlink(missing_ok=True)  # an earlier page would show a grade that is not completely entered
         self._autograde(entry, submission)
@@ -118,13 +118,14 @@ class CourseGradebook:
         grade = entry.grade
         with self._course.gradebook as gradebook:
             notebook = gradebook.find_submission_notebook(grade.exercise, grade.exercise, grade.student)
-            notebook.late_submission_penalty = entry.late_points
+            notebook.late_submission_penalty = _penalty(notebook, entry)
             gradebook.db.commit()
 
-    def _penalty(self, grade: Grade) -> float:
+    def _is_deducted(self, entry: Entry) -> bool:
+        grade = entry.grade
         with self._course.gradebook as gradebook:
             notebook = gradebook.find_submission_notebook(grade.exercise, grade.exercise, grade.student)
-            return float(notebook.late_submission_penalty or 0.0)
+            return bool((notebook.late_submission_penalty or 0.0) == _penalty(notebook, entry))
 
     def _assign(self, exercise: str) -> None:
         """Create the exercise's assignment in the gradebook, with the present points of its checks or criteria."""
@@ -180,6 +181,11 @@ class CourseGradebook:
     def _autograded(self, grade: Grade) -> Path:
         """Return the folder in which nbgrader stores the autograded notebook."""
         return self._folder / "autograded" / grade.student / grade.exercise
+
+
+def _penalty(notebook: Any, entry: Entry) -> float:
+    """Return the points to deduct for late work, never more than nbgrader's `notebook` has."""
+    return min(entry.late_points, float(notebook.score))
 
 
 def _is_whole(page: Path) -> bool:

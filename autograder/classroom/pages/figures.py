@@ -64,8 +64,8 @@ class ExerciseFigures:
 
     @property
     def median(self) -> float:
-        """The median score, in points."""
-        return median(grade.score or 0 for grade in self.graded)
+        """The median of the points without deductions for late work, as in the other figures."""
+        return median(grade.earned or 0 for grade in self.graded)
 
     @property
     def max_score(self) -> int:

@@ -67,6 +67,15 @@ def test_grading_again_replaces_the_score(gradebook, course):
     assert score == highest
 
 
+def test_late_work_never_has_less_than_no_points(gradebook):
+    everything = {check.id: FAILED for check in EXERCISE.checks}
+    late = Entry(grade_of("anna", **everything), SOURCES, late_points=3.0)
+    page = gradebook.enter(late)
+    assert "(Score: 0.0 / " in page.read_text()
+    written = page.stat().st_mtime_ns
+    assert gradebook.enter(late).stat().st_mtime_ns == written
+
+
 def test_unchanged_grades_are_not_entered_again_but_new_ones_are(gradebook, course):
     entries = [
         Entry(grade_of("anna"), SOURCES),
@@ -210,9 +219,11 @@ def test_each_of_several_files_is_shown_in_its_own_cell(gradebook):
     assert "This file was not handed in." in page
 
 
-def test_a_reason_makes_a_grade_not_graded(gradebook):
+def test_a_reason_makes_a_grade_not_graded_and_removes_the_page_of_an_earlier_grade(gradebook):
+    page = gradebook.enter(Entry(grade_of("anna"), SOURCES))
     grade = dataclasses.replace(grade_of("anna"), reason="the machine was too busy")
     assert gradebook.enter(Entry(grade, SOURCES)) is None
+    assert not page.exists()
 
 
 def test_a_course_that_would_execute_submissions_is_not_opened(course, monkeypatch):

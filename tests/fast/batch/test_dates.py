@@ -39,8 +39,19 @@ def grade_of(exercise: str, student: str = "ada") -> Grade:
         (DUE + RULE, "2026-12-04 18:16:00 UTC", 17, "1 day late"),
         (DUE + RULE, "2026-12-05 18:16:00 UTC", 14, "2 days late"),
         (DUE + RULE, "2026-12-24 12:00:00 UTC", 8, "at most 40 %"),
+        (
+            DUE + "late: {percent_per_day: 80}",
+            "2026-12-05 12:00:00 UTC",
+            0,
+            "24, are deducted, but not below 0.",
+        ),
         ("timezone: Europe/Vienna\n" + DUE + RULE, "2026-12-04 17:16:00 UTC", 17, "18:16 CET"),
-        (DUE + RULE + "extensions: {ada: {walk_to: 2026-12-08}}", "2026-12-08 23:59:00 UTC", 20, ""),
+        (
+            DUE + RULE + "extensions: {ada: {walk_to: 2026-12-08}}",
+            "2026-12-08 23:59:00 UTC",
+            20,
+            "(extended): in time.",
+        ),
         (DUE + RULE + "handed_in: {ada: {walk_to: 2026-12-04 17:00}}", "2026-12-09 12:00:00 UTC", 20, ""),
         (DUE + RULE, "", 20, ""),
         (DUE + BUDGET, "2026-12-06 12:00:00 UTC", 20, "2 of your late days used, 0 of 2 left"),
@@ -71,18 +82,22 @@ def test_late_days_are_used_in_the_order_of_handing_in(tmp_path: Path) -> None:
 
 
 def test_the_instructor_reads_who_is_late_whose_time_is_unknown_and_who_is_missing(tmp_path: Path) -> None:
-    dates = deadlines(tmp_path, DUE + RULE + "extensions: {zoe: {walk_to: 2026-12-08}}")
-    timestamps = {("ada", "walk_to"): "2026-12-05 12:00:00 UTC", ("bob", "walk_to"): ""}
-    grades = dates.applied([grade_of("walk_to"), grade_of("walk_to", "bob")], timestamps)
+    dates = deadlines(tmp_path, DUE + RULE + "extensions: {Zoe Lee: {walk_to: 2026-12-08}}")
+    unknown_times = ["Zoe Lee-41", *(f"bob {number}" for number in range(6))]
+    timestamps = {("ada", "walk_to"): "2026-12-05 12:00:00 UTC"}
+    timestamps |= {(student, "walk_to"): "" for student in unknown_times}
+    grades = dates.applied([grade_of(exercise, student) for student, exercise in timestamps], timestamps)
 
     late, unknown, missing = dates.notes(grades, timestamps)
 
     assert late.startswith(
         "ada · walk_to: Handed in Sat 05 Dec 2026 12:00 UTC, due Fri 04 Dec 2026 18:00 UTC"
     )
-    assert unknown.startswith("bob · walk_to: time unknown")
-    assert str(dates.path) in unknown
-    assert missing.endswith("names students without a submission: zoe")
+    assert unknown.startswith(
+        "walk_to: time unknown, so nothing is deducted: Zoe Lee-41, bob 0, bob 1, bob 2, bob 3"
+    )
+    assert f" and 2 more; write the times of those who were late to handed_in in {dates.path}" in unknown
+    assert missing.endswith("names students without a submission: Zoe Lee (their folder may be Zoe Lee-41)")
 
 
 @pytest.mark.parametrize(
@@ -143,7 +158,7 @@ def test_gradebook_and_pages_follow_the_dates_also_when_these_change(
         page = (out / "pages/ada/patterns.html").read_text()
         assert f"{score} of 13 points (13 before the deduction for late work)" in page
         assert f"1 day × {percent} %" in page
-        assert f"{score}/13 (late, before 13)" in (out / "pages/ada/index.html").read_text()
+        assert f"{score}/13 (late, 13 before)" in (out / "pages/ada/index.html").read_text()
         with Gradebook(f"sqlite:///{out / 'gradebook.db'}") as gradebook:
             submission = gradebook.find_submission("patterns", "ada")
             assert submission.score - submission.late_submission_penalty == pytest.approx(score)

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner, Result
 
+from autograder.classroom.batch.records import read_grades
+from autograder.classroom.regrade_requests import Evidence, RegradeRequest
 from autograder.engine.exercise import exercises_folder
 from course_cli.app import app
 
@@ -65,6 +68,45 @@ def test_drafts_quote_the_second_run_and_a_decision_stays(tmp_path: Path, graded
     assert table.read_text().count(",refused,Anna,") == 2
     assert not (tmp_path / "out/1/reply.md").exists()  # it was not graded a third time
     assert (graded / "grades.json").read_bytes() == before
+
+
+def test_a_request_about_the_whole_grade_names_no_check_and_a_bad_form_stops_no_other(
+    tmp_path: Path, graded: Path
+) -> None:
+    """The grade was late, and then not graded: neither is a difference between two runs."""
+    changed = tmp_path / "graded"
+    shutil.copytree(graded, changed)
+    (record,) = json.loads((changed / "grades.json").read_text())
+    record |= {"late": {"points": 1.3, "reason": "Handed in on Sunday: 1 day late."}}
+    (changed / "grades.json").write_text(json.dumps([record]))
+    (tmp_path / "a.md").write_text("student: ada\nwhy: it was Friday")
+    (tmp_path / "b.md").write_text(FORM.format(check=""))
+
+    late = ask(tmp_path, changed)
+
+    assert late.exit_code == 1
+    assert "a.md has no line 'exercise'" in " ".join(late.output.split())
+    draft = (tmp_path / "out/1/reply.md").read_text()
+    assert "points, as before.\n\nHanded in on Sunday: 1 day late.\n" in draft
+    assert "second run: same" in draft
+
+    (changed / "grades.json").write_text(json.dumps([record | {"checks": [], "reason": "no arena"}]))
+    (tmp_path / "a.md").write_text(FORM.format(check="Everything").replace("think", "hope"))
+
+    assert ask(tmp_path, changed).exit_code == 0
+    assert "points, not graded before." in (tmp_path / "out/2/reply.md").read_text()
+
+
+def test_the_draft_names_the_recording_and_the_second_of_the_verdict(graded: Path) -> None:
+    (grade,) = read_grades(graded / "grades.json")
+    checks = [replace(each, robot_time=3.94) for each in grade.checks]
+    check = next(each for each in checks if each.status == "failed" and not each.hidden)
+    request = RegradeRequest(1, "ada", "patterns", check.id, "")
+
+    reply = Evidence(request, grade, replace(grade, checks=checks), [Path("out/O'Neill/walk.mcap")]).reply()
+
+    assert f"Observed: {check.observed} (at 3.9 s)" in reply
+    assert f"""./course replay 'out/O'"'"'Neill/walk.mcap' --around {check.id}""" in reply
 
 
 def test_a_second_run_that_differs_is_reported(tmp_path: Path, graded: Path) -> None:
