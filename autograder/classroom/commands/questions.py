@@ -13,6 +13,7 @@ from rich.console import Console
 
 from autograder.classroom.batch.collection import Work, collect
 from autograder.classroom.batch.version import checks_version
+from autograder.classroom.nbgrader_bridge.course_folder import NbgraderError
 from autograder.classroom.questions.formgrader import assignment_of, enter_questions
 from autograder.classroom.questions.making import Maker
 from autograder.classroom.questions.pages import EXAMINER, STUDENTS, TABLE, write_pages
@@ -80,7 +81,10 @@ def questions(
         markup=False,
     )
     if nbgrader:
-        marked = enter_questions(nbgrader, sheets, submitted, number)
+        try:
+            marked = enter_questions(nbgrader, sheets, submitted, number)
+        except NbgraderError as error:
+            raise error_exit(console, str(error), COMMAND_FAILED) from error
         console.print(
             f"{marked} of {len(sheets)} students are marked; Formgrader, started in {nbgrader}, shows the others under "
             f"Manual Grading > {assignment_of(exercise)}",

@@ -137,7 +137,7 @@ class CourseGradebook:
         try:
             call(self._course.generate_assignment, exercise)
         except NbgraderError as error:
-            advice = "the checks of a gradebook with submissions cannot be changed; give another --out"
+            advice = "the cells of an assignment with submissions cannot be changed; give another folder"
             raise NbgraderError(f"{error} ({advice})", error.log) from error
         self._assigned.add(exercise)
 

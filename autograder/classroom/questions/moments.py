@@ -39,6 +39,8 @@ _RUNS_WHENEVER = {
     "timer": "its timer fires",
     "goal": "a goal is sent",
     "accepted": "a goal is accepted",
+    "feedback": "feedback arrives",
+    "done": "the future is complete",
 }
 
 

@@ -13,7 +13,7 @@ from autograder.classroom.audit.generated.program import Edits, Named, Program, 
 WAITS = ("sleep", "wait", "wait_for")  # names of calls that keep the thread
 MOST_LINES = 2000  # of a program that is read, so that no text keeps the command busy for hours
 LONGEST_QUOTE = 100  # characters of a line of code
-_KINDS = ("subscription", "service", "timer", "feedback", "goal", "cancel", "execute", "accepted")
+_KINDS = ("subscription", "service", "timer", "feedback", "goal", "cancel", "execute", "accepted", "done")
 _NEW_LINE = re.compile("\r\n|\r|\n")  # what ends a line in Python; str.splitlines knows more
 
 

@@ -118,7 +118,7 @@ def test_a_gradebook_with_submissions_says_why_it_cannot_take_other_checks(grade
     gradebook.enter(Entry(grade_of("anna"), SOURCES))
     fewer = dataclasses.replace(EXERCISE, checks=EXERCISE.checks[:-1])
     monkeypatch.setattr(generated_cells, "load_exercise", lambda name, hidden: fewer)
-    with pytest.raises(NbgraderError, match=r"Cannot add or remove cells.*give another --out"):
+    with pytest.raises(NbgraderError, match=r"Cannot add or remove cells.*give another folder"):
         CourseGradebook(course, SOLUTIONS).enter(Entry(grade_of("bert"), SOURCES))
 
 

@@ -11,10 +11,13 @@ import nbformat
 import pytest
 from nbgrader.api import Gradebook
 from nbgrader.utils import is_grade, is_solution
+from typer.testing import CliRunner
 
+from autograder.classroom.commands import questions as command
 from autograder.classroom.nbgrader_bridge.class_export import ClassExport
 from autograder.classroom.questions.formgrader import POINTS, enter_questions, write_notebook
 from autograder.classroom.questions.question import Part, Question, Sheet
+from course_cli.app import app
 
 NAME = "walk_to_questions"
 CELLS = ("question_1", "question_2")
@@ -124,6 +127,30 @@ def test_an_unreadable_answer_is_named(course, submitted):
     assert any(
         "The answers cannot be read: is not a notebook" in cell.source for cell in shown(course, "anna")
     )
+
+
+def test_command_enters_the_questions_and_says_why_their_number_cannot_change(
+    course, submitted, tmp_path, monkeypatch
+):
+    (submitted / "anna").mkdir(parents=True)
+    (submitted / "anna" / "walk_to.py").write_text(ANNA.program)
+    monkeypatch.setattr(command.Maker, "sheet", lambda maker: ANNA)
+    words = [
+        "questions",
+        "walk_to",
+        str(submitted),
+        "--out",
+        str(tmp_path / "out"),
+        "--nbgrader",
+        str(course),
+    ]
+    done = CliRunner().invoke(app("questions"), [*words, "--number", "2"])
+    assert done.exit_code == 0, done.output
+    assert "0 of 1 students are marked" in done.output
+    assert scores(course, "anna") == (0, POINTS * 2, True)
+    more = CliRunner().invoke(app("questions"), [*words, "--number", "3"])
+    assert more.exit_code == 1
+    assert "give another folder" in " ".join(more.output.split())
 
 
 def test_marked_questions_are_exported(course, submitted, tmp_path):

@@ -189,6 +189,36 @@ def test_key_of_a_fall_names_the_condition_and_the_callback_that_stores_what_it_
     assert "in on_state, which runs whenever a message of its topic arrives" in stored
 
 
+def test_key_of_a_clients_request_to_cancel_names_the_line_that_sent_it_and_its_condition():
+    program = StudentProgram(known("battery_guard", "one_loop"))
+    path = recorded.FOLDER / "battery_guard" / "one_loop.in_order-11.jsonl.gz"
+    run = recorded.read(path, recorded.scenarios_of("battery_guard")["in_order-11"])
+    (cancel,) = run.all(ev.CancelReceived)
+    sends = line_of(program, "handle.cancel_goal_async()")
+    (question,) = moments(program, with_reports(run, [(cancel.t - 0.02, f"{sends} cancel_goal_async")]))
+    assert "Ctrl-C was pressed at" in question.situation
+    assert f"received a request at {cancel.t:.1f} s to cancel its goal" in question.situation
+    sent, condition = (part.key for part in question.parts)
+    assert sent.startswith(f"line {sends}, `handle.cancel_goal_async()`, at ")
+    assert condition == f"line {line_of(program, 'if not is_heard:')}, `if not is_heard:`: it was true."
+
+
+def test_an_exception_that_led_to_a_line_is_asked():
+    program = StudentProgram(known("walk_client", "spins_in_a_thread"))
+    second = line_of(program, "handle.cancel_goal_async()", 1)
+    (node,) = [
+        one for one in program.every(ast.Attribute) if one.lineno == second and one.attr.startswith("cancel")
+    ]
+    led, _ = program.condition(node)
+    assert led.lineno == line_of(program, "except KeyboardInterrupt:")
+
+
+def test_feedback_callback_of_a_client_sleeps_first():
+    (change,) = executor_changes(StudentProgram(known("walk_client", "one_loop")))
+    assert "time.sleep(2.5); self._last_heard = time.monotonic()" in change.text
+    assert "while _on_feedback sleeps" in change.why
+
+
 def test_a_line_reached_from_one_callback_runs_for_that_callback():
     program = StudentProgram(known("cancellable_walk", "abort_on_acceptance"))
     noticed = next(one for one in program.every(ast.Assign) if "canceling = " in ast.unparse(one))

@@ -20,6 +20,7 @@ _CALLBACK_ARGUMENTS: dict[str, dict[int | str | None, str]] = {
     "create_service": {2: "service", "callback": "service"},
     "create_timer": {1: "timer", "callback": "timer"},
     "send_goal_async": {1: "feedback", "feedback_callback": "feedback"},
+    "add_done_callback": {0: "done"},
     "ActionServer": {
         3: "execute",
         "execute_callback": "execute",
