@@ -202,7 +202,7 @@ class Evidence:
             f"The student wrote: “{request.why}”" if request.why else "The student gave no reason.",
             "## Draft of the reply",
             f"I graded the program that you handed in again (fingerprint {self.again.program}), with the same inputs: "
-            f"{now}, {'as' if now == before else before} before.",
+            f"{now}{', as before' if now == before else f'; before: {before}'}.",
             *([self.before.late.reason] if self.before.late else []),
             *(_in_words(seen) if seen else ["The page of your exercise has all checks."]),
             "## For you",

@@ -68,7 +68,7 @@ def requests(
             failed |= bool(evidence.differences)
     table = Table(show_edge=False)
     for title in ("request", "student", "exercise", "check", "state", "second run"):
-        table.add_column(title, overflow="fold")
+        table.add_column(title, overflow="fold", no_wrap=title == "exercise")
     for request in state:
         colour = "bold red" if request.second_run.startswith("DIFFERS") else ""
         cells = [

@@ -94,7 +94,7 @@ def test_a_request_about_the_whole_grade_names_no_check_and_a_bad_form_stops_no_
     (tmp_path / "a.md").write_text(FORM.format(check="Everything").replace("think", "hope"))
 
     assert ask(tmp_path, changed).exit_code == 0
-    assert "points, not graded before." in (tmp_path / "out/2/reply.md").read_text()
+    assert "points; before: not graded." in (tmp_path / "out/2/reply.md").read_text()
 
 
 def test_the_draft_names_the_recording_and_the_second_of_the_verdict(graded: Path) -> None:
