@@ -89,9 +89,10 @@ def why_aborted(nodes: Iterable[StudentNode], action: str, goal: str) -> str:
 
 
 def server_of(nodes: Iterable[StudentNode], name: str) -> StudentNode | None:
-    """Return the running node that offers a service or action; None if there is none."""
+    """Return the running node that offers a service or action, or that nobody has discovered; None if there is none."""
     wanted = connection().node.resolve_service_name(name)
-    return next((node for node in nodes if node.is_running and wanted in _offered_by(node)), None)
+    running = [node for node in nodes if node.is_running]
+    return next((node for node in running if not node.names or wanted in _offered_by(node)), None)
 
 
 def _offered_by(node: StudentNode) -> dict[str, str]:

@@ -37,20 +37,24 @@ def run_node(file: str | Path, *arguments: str) -> StudentNode:
     earlier = _nodes.pop(path, None)
     if earlier is not None:
         earlier.stop()
-    known = _nodes_seen()
+    known, appeared = _nodes_seen(), {}
     node = StudentNode(path, Process([str(path), *in_namespace(arguments)]))
     _nodes[path] = node
+
+    def has_appeared() -> bool:
+        appeared.update({gid: name for gid, name in _nodes_seen().items() if gid not in known})
+        return bool(appeared) or not node.is_running
+
     with notice(
         f"{path.name} is starting. Its node can be reached in a few seconds, on a busy machine in up to 20 s."
     ):
-        if becomes_true(lambda: not node.is_running or _nodes_seen().keys() - known, START_TIMEOUT):
+        if becomes_true(has_appeared, START_TIMEOUT):
             deadline = time.monotonic() + START_TIMEOUT
-            for gid, name in _nodes_seen().items():
-                if gid not in known:
-                    wait_until_reachable(
-                        connection().node, name, lambda: not node.is_running or time.monotonic() > deadline
-                    )
-                    node.expect(name)
+            for name in appeared.values():
+                wait_until_reachable(
+                    connection().node, name, lambda: not node.is_running or time.monotonic() > deadline
+                )
+                node.expect(name)
     if not node.is_running and node.exit_status != 0:
         raise NodeEndedError(
             f"{path.name} ended at once {how_it_ended(node)}\nIt printed:\n{own_output(node)}"
