@@ -114,12 +114,10 @@ def _record(node: StudentNode, *more: Event) -> Transcript:
     seen = [event for kind in _SEEN_BY_THE_CLIENT for event in log.all(kind)]
     ready = [ev.NodeReady(t=began, waited=0.0)] if node.names else []
     exited = [] if ended is None else [ev.NodeExited(t=ended, returncode=node.exit_status or 0)]
-    peers = ev.RobotPeers(
-        t=began, subscribers={f"{NAMESPACE}/cmd_vel": 0}, publishers={}
-    )  # for the namespace
-    return Transcript.from_events(
-        "", {}, [ev.NodeStarted(t=began), *ready, peers, *printed, *seen, *exited, *more]
-    )
+    # The names in it have the robot's namespace.
+    peers = ev.RobotPeers(t=began, subscribers={f"{NAMESPACE}/cmd_vel": 0}, publishers={})
+    started = ev.NodeStarted(t=began)
+    return Transcript.from_events("", {}, [started, *ready, peers, *printed, *seen, *exited, *more])
 
 
 def _stack(node: StudentNode) -> ev.NodeStack:
@@ -133,7 +131,10 @@ def _as_in_the_sandbox(line: str) -> str:
 
 def _on_the_callback(service: str, file: Path) -> str:
     """Return which function of a file is the callback of a service, and whether it returns a value; "" if unknown."""
-    tree = ast.parse(file.read_text(encoding="utf-8"))
+    try:
+        tree = ast.parse(file.read_bytes())
+    except (OSError, SyntaxError):  # it was changed since the program was started
+        return ""
     functions = {
         each.name: each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef)
     }
@@ -142,7 +143,7 @@ def _on_the_callback(service: str, file: Path) -> str:
             names = [ast.unparse(argument).rpartition(".")[2] for argument in call.args]
             if repr(service) in names and (callback := functions.get(names[-1])):
                 returns = any(isinstance(each, ast.Return) and each.value for each in ast.walk(callback))
-                so = "" if returns else ", which has no `return` and so returned None"
+                so = "" if returns else ", which returns no value, that is None"
                 return f" The callback is {callback.name}() in line {callback.lineno} of {file.name}{so}."
     return ""
 
@@ -152,7 +153,7 @@ def _with_code(advice: str, node: StudentNode) -> str:
 
     def quoted(place: re.Match[str]) -> str:
         file = node.file.with_name(place[2])
-        lines = file.read_text(encoding="utf-8").splitlines() if file.is_file() else []
+        lines = file.read_text(encoding="utf-8", errors="replace").splitlines() if file.is_file() else []
         line = lines[int(place[1]) - 1].strip() if int(place[1]) <= len(lines) else ""
         return f"{place[0]} (`{line}`)" if line else place[0]
 

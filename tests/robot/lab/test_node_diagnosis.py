@@ -69,8 +69,8 @@ def run(
             "response.message = 'up'",
             "status.py has ended with exit status 1: TypeError. Your service callback of get_status returned nothing, "
             "or something other than the response. End every branch with `return response`. The callback is "
-            "on_request() in line 17 of status.py (`def on_request(self, request, response):`), which has no `return` "
-            "and so returned None.",
+            "on_request() in line 17 of status.py (`def on_request(self, request, response):`), which returns no "
+            "value, that is None.",
         ),
         ("return True", "The callback is on_request() in line 17 of status.py (`def on_request("),
         (
