@@ -24,13 +24,13 @@ _loading.enter_context(
 
 from lab.client.commands import publish, walking
 from lab.client.connection import node
+from lab.client.exchange import wait_until
 from lab.client.formatting import describe
 from lab.client.goals import Goal, send_goal
 from lab.client.graph import list_graph, nodes_in_graph
 from lab.client.outcomes import CancelAnswer, Outcome
 from lab.client.services import call, service_is_ready
 from lab.client.topics import Pose, battery, mode, odometry, pose, robot_state
-from lab.client.waiting import wait_until
 from lab.errors import LabError, NoAnswerError, NodeEndedError, NoRobotError, NoServerError, NotInTimeError
 from lab.learning.design import check_design, draw_design
 from lab.learning.gap import GapError

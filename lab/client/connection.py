@@ -131,10 +131,11 @@ class Connection:
         found: dict[str, str] = {}
         for name, namespace in self.node.get_node_names_and_namespaces():
             if name != self.node.get_name():
-                found |= self._servers_of(name, namespace)
+                found |= self.servers_of(name, namespace)
         return found
 
-    def _servers_of(self, name: str, namespace: str) -> dict[str, str]:
+    def servers_of(self, name: str, namespace: str) -> dict[str, str]:
+        """Return the types of the services and actions of one node, by full name, without the standard services."""
         try:
             services = self.node.get_service_names_and_types_by_node(name, namespace)
         except NodeNameNonExistentError:  # the node has just left

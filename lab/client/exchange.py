@@ -1,4 +1,4 @@
-"""What calls and goals share: waiting for a server, and the error when no answer arrives."""
+"""Waits for servers and for conditions, and the errors when they do not come, or when no answer arrives."""
 
 from __future__ import annotations
 
@@ -6,16 +6,38 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+from lab.client import topics
 from lab.client.connection import connection
 from lab.client.interaction_log import log
 from lab.client.messages import GaveUp
 from lab.client.waiting import becomes_true
-from lab.errors import NoAnswerError, NoServerError
-from lab.running.student_nodes import output_of_failed_nodes
+from lab.errors import NoAnswerError, NoServerError, NotInTimeError
+from lab.running.node_diagnosis import server_of, why_not_offered, why_silent, why_they_ended
+from lab.running.student_nodes import StudentNode, started_nodes
 from ros_runtime.recorded_client.goal import Cancel, Goal
 from ros_runtime.recorded_client.service_client import Call
 
 MATCHING_TIME = 0.1  # s until the server has discovered the client, too; otherwise its answer could be lost
+
+
+def wait_until(
+    condition: Callable[[], Any],
+    timeout: float = 10.0,
+    what: str = "the condition",
+    seen: Callable[[], Any] | None = None,
+) -> None:
+    """Block until `condition()` is true; `what` names the condition in the error, which shows `seen()` instead.
+
+    Raises NotInTimeError after `timeout` s; it also says if the robot lies, and why nodes have ended.
+    """
+    began = time.monotonic()
+    if becomes_true(condition, timeout):
+        return
+    message = f"{what}: not within {timeout:g} s" + (f", but {seen()!r}" if seen else "")
+    if fell := topics.fell_at():
+        when = f"{abs(fell - began):.1f} s {'after' if fell > began else 'before'} this wait began"
+        message += f". The robot lies: it fell {when}. lab.restart_robot() sets it up again."
+    raise NotInTimeError(message + why_they_ended(started_nodes()))
 
 
 def require_server(is_ready: Callable[[], bool], name: str, interface: Any, timeout: float) -> None:
@@ -34,22 +56,24 @@ def require_server(is_ready: Callable[[], bool], name: str, interface: Any, time
         seen = f"there is a {wanted}, but of type {offered[wanted]}"
     else:
         seen = f"the nodes offer: {', '.join(sorted(offered)) or 'nothing'}"
-    raise NoServerError(
-        f"no node offers {wanted} ({interface.__name__}) within {timeout:g} s; {seen}. "
-        f"Start a server with lab.run_node('FILE.py').{output_of_failed_nodes()}"
-    )
+    why = "Start a server with lab.run_node('FILE.py')."
+    if nodes := [node for node in started_nodes() if not node.was_stopped]:
+        why = why_not_offered(nodes[-1], wanted, is_action=hasattr(interface, "Goal"))
+    raise NoServerError(f"no node offers {wanted} ({interface.__name__}) within {timeout:g} s; {seen}. {why}")
 
 
-def give_up(sent: Call | Cancel | Goal, timeout: float, what_is_known: str) -> NoAnswerError:
+def give_up(sent: Call | Cancel | Goal, timeout: float, name: str, what_is_known: str) -> NoAnswerError:
     """Stop waiting for an answer and return the error to raise; an answer that arrives later is ignored.
 
-    `timeout` is how long the caller has waited, in s.
+    `timeout` is how long the caller has waited, in s; `name` is the service or action.
     """
     sent.request.give_up()
     log.append(GaveUp(timeout=timeout))
-    return no_answer(what_is_known)
+    return no_answer(name, what_is_known)
 
 
-def no_answer(what_is_known: str) -> NoAnswerError:
-    """Return the error for a missing answer, with the output of failed nodes."""
-    return NoAnswerError(what_is_known + output_of_failed_nodes())
+def no_answer(name: str, what_is_known: str, why: Callable[[StudentNode], str] = why_silent) -> NoAnswerError:
+    """Return the error for a missing answer: `why` the server of `name` gives none, and why other nodes have ended."""
+    nodes = started_nodes()
+    server = server_of(nodes, name)
+    return NoAnswerError(what_is_known + (f"\n{why(server)}" if server else "") + why_they_ended(nodes))

@@ -12,6 +12,8 @@ from lab.client.formatting import describe
 from lab.client.interaction_log import conversation, log
 from lab.client.outcomes import CancelAnswer, Outcome, read_cancel_answer
 from lab.errors import LabError
+from lab.running.node_diagnosis import why_aborted, why_unfinished
+from lab.running.student_nodes import started_nodes
 from ros_runtime.message_constants import GoalStatus, name_of
 from ros_runtime.record.client_events import Unanswered
 from ros_runtime.recorded_client.action_client import ActionClient
@@ -44,8 +46,8 @@ def send_goal(action: str, action_type: Any, goal: Any, *, timeout: float = 5.0)
         raise give_up(
             sent,
             timeout,
-            f"{action} has neither accepted nor rejected the goal within {timeout:g} s. "
-            "The server's goal callback or its only thread may be busy.",
+            action,
+            f"{action} has neither accepted nor rejected the goal within {timeout:g} s.",
         )
     return Goal(action, sent)
 
@@ -91,15 +93,22 @@ class Goal:
             if left <= 0:
                 log.append(Unanswered(what="result", id=self._sent.name, waited=timeout))
                 raise no_answer(
+                    self._action,
                     f"no result from {self._action} within {timeout:g} s; the goal's status is {self.status}. "
-                    "Call result() again to wait longer, or cancel()."
+                    "Call result() again to wait longer, or cancel().",
+                    lambda server: why_unfinished(server, self._sent.name),
                 )
             count = len(self.feedback)
             log.wait_until(lambda: self.is_over, min(1.0, left))
             if show_feedback and len(self.feedback) > count:
                 since = time.monotonic() - self._sent.sent_at
                 print(f"{since:5.1f} s  feedback: {describe(self.feedback[-1])}")
-        return Outcome(name_of(GoalStatus, self._sent.result.status), self._sent.result.result)
+        outcome = Outcome(name_of(GoalStatus, self._sent.result.status), self._sent.result.result)
+        if outcome.status == "ABORTED" and (
+            why := why_aborted(started_nodes(), self._action, self._sent.name)
+        ):
+            print(why)
+        return outcome
 
     def cancel(self, timeout: float = 5.0) -> CancelAnswer:
         """Send a cancel request for this goal and return the response. An accepted cancel does not end the goal yet.
@@ -113,8 +122,8 @@ class Goal:
             raise give_up(
                 request,
                 timeout,
-                f"{self._action} has not answered the cancel request within {timeout:g} s. "
-                "The server's only thread may be busy.",
+                self._action,
+                f"{self._action} has not answered the cancel request within {timeout:g} s.",
             )
         return read_cancel_answer(request.answer, self._sent.name)
 

@@ -34,9 +34,8 @@ def call(service: str, service_type: Any, request: Any = None, *, timeout: float
         raise give_up(
             sent,
             timeout,
-            f"no answer from {service} within {timeout:g} s. The request was sent, but it is unknown whether the "
-            "server has executed it. If the server still runs, its thread is busy: in a node with only one thread "
-            "a callback must not wait, sleep or call another service.",
+            service,
+            f"no answer from {service} within {timeout:g} s; whether the server has executed the request is unknown.",
         )
     return sent.response
 

@@ -79,6 +79,13 @@ def mode() -> str:
     return name_of(RobotMode, robot_state().mode)
 
 
+def fell_at() -> float | None:
+    """Return when the robot fell, in s of `time.monotonic()`; None if no robot runs that lies."""
+    stored = _last_messages()
+    lies = stored.age("robot_state") <= MAX_AGE and mode() == "FALLEN"
+    return stored.mode_changed_at if lies else None
+
+
 def latest(topic: str, timeout: float = 5.0) -> Any:
     """Return the last message on one of the robot's topics; if it is older than a second, wait for a new one.
 
@@ -156,13 +163,15 @@ def _last_messages() -> _LastMessages:
 class _LastMessages:
     """Subscribes to topics and keeps each topic's last message with its time of arrival.
 
-    `scene` is the name of the scene in which the robot was started, `robot` the robot's name.
+    `scene` is the name of the scene in which the robot was started, `robot` the robot's name; `mode_changed_at` is in s
+    of `time.monotonic()`.
     """
 
     def __init__(self, node: Node) -> None:
         self.messages: dict[str, tuple[Any, float]] = {}
         self.listeners: list[Callable[[str, Any], object]] = []
         self.scene, self.robot = "flat", "humanoid"
+        self.mode_changed_at = time.monotonic()
         self._node = node
         self._topics: set[str] = set()
         for topic, (message_type, qos) in TOPICS.items():
@@ -183,6 +192,7 @@ class _LastMessages:
         before = self.messages.get(topic)
         self.messages[topic] = (message, time.monotonic())
         if topic == "robot_state" and before and before[0].mode != message.mode:
+            self.mode_changed_at = time.monotonic()
             log.append(ModeChanged(mode=message.mode))
         for listener in tuple(self.listeners):
             listener(topic, message)

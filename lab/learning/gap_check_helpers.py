@@ -9,15 +9,15 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from autograder.authoring.diagnosis.exit_diagnosis import remedy_for_a_traceback
 from lab.client.services import call
 from lab.client.waiting import becomes_true
 from lab.errors import NoAnswerError
 from lab.learning.gap import not_yet
+from lab.running.node_diagnosis import why_silent
 from lab.running.student_nodes import StudentNode
 
 TO_END = 1.0  # s; long enough for a node to exit after an exception
-# rclpy's message does not explain it
-HINTS = {"TypeError": "end each path of the callback with `return response`"}
 NO_HINTS: Mapping[str, str] = {}
 
 
@@ -41,21 +41,27 @@ def call_student_service(
         pass
     ended = becomes_true(lambda: not server.is_running, TO_END)
     reason = last_error_or_line(server.log(), server.file.name)
-    if ended:
-        known = {**hints, **HINTS}
-        advice = next((known[part] for part in known if part in reason), "fix the error that is named here")
-    else:
-        advice = "find out why the callback does not return"
+    advice = advice_on(server.log(), reason, hints) if ended else why_silent(server)
     seen = f"no response within 2 s; the node {f'has ended: {reason}' if ended else 'still runs'}"
     raise not_yet(seen, "a response", advice)
+
+
+def advice_on(log: str, reason: str, hints: Mapping[str, str] = NO_HINTS) -> str:
+    """Return the hint whose key is in the `reason` of a node's end; else what a self-check says about its log."""
+    if hint := next((hints[part] for part in hints if part in reason), ""):
+        return hint
+    remedy = remedy_for_a_traceback(log)
+    return remedy.help if remedy else "fix the error that is named here"
 
 
 def last_error(log: str, file: str) -> str:
     """Return the last exception in a log, with the line of the student's `file` that raised it; "" if there is none."""
     errors = re.findall(r"^[\w.]*(?:Error|Exception)\b.*", log, re.MULTILINE)
-    frame = rf'File "(?:[^"]*/)?{re.escape(file)}", line \d+, in (?!<module>).*\n +(.+)'
-    lines = re.findall(frame, log.rpartition("Traceback (most recent call last):")[2])
-    where = f" in `{lines[-1]}`" if lines else ""
+    traceback = log.rpartition("Traceback (most recent call last):")[2]
+    frames = re.findall(r'File "([^"]+)", line \d+, in (.+)\n +(.+)', traceback)
+    own = [index for index, (path, *_) in enumerate(frames) if Path(path).name == file]
+    spins = own and any(function.startswith("spin") for _, function, _ in frames[own[-1] + 1 :])
+    where = f" in `{frames[own[-1]][2]}`" if own and not spins else ""
     return f"{errors[-1]}{where}" if errors else ""
 
 

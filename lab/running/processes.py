@@ -7,6 +7,7 @@ import re
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from collections import deque
@@ -20,10 +21,13 @@ import psutil
 
 from lab.pictures.labels import Mark
 from ros_runtime.workarounds import die_with_parent
+from ros_runtime.workarounds.rclpy_repairs.hook import STACK_FILE, STACK_SIGNAL
 
 KEPT_LINES = 2000  # of each output stream
 GRACE = 3.0  # s from SIGINT to SIGKILL
 DRAIN_TIME = 1.0  # s to read the rest of the pipe of a process that has ended
+STACK_TIMEOUT = 0.5  # s for the process to begin to write its stacks
+STACK_TIME = 0.05  # s to write them
 LOG_PREFIX = re.compile(r"^(\[\w+\]) \[[\d.]+\] \[[^\]]*\]: ")  # severity, time and logger of a ROS log line
 
 # Linux sends the signal of `die_with_parent` when the *thread* that started the child ends; this thread never ends.
@@ -40,7 +44,8 @@ class Process:
 
     def __init__(self, arguments: Sequence[str], *, own_stderr: bool = False) -> None:
         self.began = time.monotonic()
-        self._popen = _spawner.submit(_start, arguments, own_stderr).result()
+        self._stacks = tempfile.TemporaryFile()  # noqa: SIM115  # closed with this object
+        self._popen = _spawner.submit(_start, arguments, own_stderr, self._stacks.fileno()).result()
         self._output = _LastLines(self._popen.stdout)
         self._errors = _LastLines(self._popen.stderr) if own_stderr else None
 
@@ -79,6 +84,19 @@ class Process:
     def ended(self) -> float | None:
         """Return when the process ended and closed its output (s, `time.monotonic()`); None while it runs."""
         return None if self.is_running else max(stream.closed() for stream in self._streams())
+
+    def stacks(self) -> list[str]:
+        """Return the stacks of the threads of the running process as faulthandler prints them; the process goes on."""
+        self._stacks.truncate(0)
+        self._stacks.seek(0)  # for the process, too
+        with suppress(ProcessLookupError):
+            os.kill(self._popen.pid, STACK_SIGNAL)
+        end = time.monotonic() + STACK_TIMEOUT
+        while time.monotonic() < end and not os.fstat(self._stacks.fileno()).st_size:
+            time.sleep(STACK_TIME)
+        time.sleep(STACK_TIME)
+        self._stacks.seek(0)
+        return self._stacks.read().decode(errors="replace").splitlines()
 
     def wait(self, timeout: float) -> bool:
         """Wait until the process ends; return whether it ended within `timeout` s."""
@@ -187,7 +205,7 @@ def _printable(line: str) -> str:
     return LOG_PREFIX.sub(r"\1 ", " ".join(letters.split()))
 
 
-def _start(arguments: Sequence[str], own_stderr: bool) -> subprocess.Popen[str]:
+def _start(arguments: Sequence[str], own_stderr: bool, stacks: int) -> subprocess.Popen[str]:
     # die_with_parent needs no site-packages; -I and -S skip their start-up files, which cost time.
     with_us = [sys.executable, "-I", "-S", die_with_parent.__file__, str(os.getpid()), sys.executable]
     return subprocess.Popen(
@@ -196,6 +214,8 @@ def _start(arguments: Sequence[str], own_stderr: bool) -> subprocess.Popen[str]:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE if own_stderr else subprocess.STDOUT,
         start_new_session=True,
+        env={**os.environ, STACK_FILE: str(stacks)},
+        pass_fds=[stacks],
         encoding="utf-8",
         errors="replace",
     )

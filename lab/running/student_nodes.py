@@ -6,12 +6,12 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from autograder.authoring.diagnosis.exit_diagnosis import remedy_for_a_traceback
 from lab.client.connection import NAMESPACE, connection
 from lab.client.interaction_log import log
 from lab.client.waiting import becomes_true
 from lab.errors import LabError, NodeEndedError
 from lab.notices import notice
+from lab.running.node_diagnosis import how_it_ended, own_output
 from lab.running.processes import Process, ProcessHistory
 from ros_runtime.notebook_domains import expect_node, forget_node
 from ros_runtime.reachability import wait_until_reachable
@@ -37,23 +37,27 @@ def run_node(file: str | Path, *arguments: str) -> StudentNode:
     earlier = _nodes.pop(path, None)
     if earlier is not None:
         earlier.stop()
-    known = _nodes_seen()
+    known, appeared = _nodes_seen(), {}
     node = StudentNode(path, Process([str(path), *in_namespace(arguments)]))
     _nodes[path] = node
+
+    def has_appeared() -> bool:
+        appeared.update({gid: name for gid, name in _nodes_seen().items() if gid not in known})
+        return bool(appeared) or not node.is_running
+
     with notice(
         f"{path.name} is starting. Its node can be reached in a few seconds, on a busy machine in up to 20 s."
     ):
-        if becomes_true(lambda: not node.is_running or _nodes_seen().keys() - known, START_TIMEOUT):
+        if becomes_true(has_appeared, START_TIMEOUT):
             deadline = time.monotonic() + START_TIMEOUT
-            for gid, name in _nodes_seen().items():
-                if gid not in known:
-                    wait_until_reachable(
-                        connection().node, name, lambda: not node.is_running or time.monotonic() > deadline
-                    )
-                    node.expect(name)
+            for name in appeared.values():
+                wait_until_reachable(
+                    connection().node, name, lambda: not node.is_running or time.monotonic() > deadline
+                )
+                node.expect(name)
     if not node.is_running and node.exit_status != 0:
         raise NodeEndedError(
-            f"{path.name} ended at once with exit status {node.exit_status}. {_advice_and_output(node)}"
+            f"{path.name} ended at once {how_it_ended(node)}\nIt printed:\n{own_output(node)}"
         )
     return node
 
@@ -83,13 +87,9 @@ def in_namespace(arguments: Sequence[str]) -> list[str]:
     return [*arguments, "--ros-args", "-r", f"__ns:={NAMESPACE}"]
 
 
-def output_of_failed_nodes() -> str:
-    """Return the output of each node that ended with an error, to quote in an error message; "" if there is none."""
-    return "".join(
-        f"\n{node.file.name} has ended with exit status {node.exit_status}. {_advice_and_output(node)}"
-        for node in _nodes.values()
-        if node.exit_status and not node.was_stopped
-    )
+def started_nodes() -> list[StudentNode]:
+    """Return the last node of each file that `run_node` started, in the order of their start."""
+    return list(_nodes.values())
 
 
 class StudentNode:
@@ -97,51 +97,55 @@ class StudentNode:
 
     Attributes:
         file: its path.
+        process: its process.
         was_stopped: whether the notebook ended it with `stop()` or `kill()`.
+        names: the full names of its ROS nodes that were discovered at its start.
     """
 
     def __init__(self, file: Path, process: Process) -> None:
         self.file = file
+        self.process = process
         self.was_stopped = False
-        self._process = process
+        self.names: list[str] = []
         self._expected: list[str] = []
 
     def expect(self, name: str) -> None:
         """Make the ros2 commands in cells wait for this process's node, until the process is stopped."""
+        self.names.append(name)
         self._expected.append(name)
         expect_node(name)
 
     @property
     def is_running(self) -> bool:
         """Whether the node's process is still running."""
-        return self._process.is_running
+        return self.process.is_running
 
     @property
     def exit_status(self) -> int | None:
         """None while the process runs, 0 after a clean end, -n if signal n ended it."""
-        return self._process.exit_status
+        return self.process.exit_status
 
     def log(self) -> str:
         """Return everything that the node has printed: the output of `print()`, log messages and tracebacks."""
-        return self._process.output()
+        return self.process.output()
 
     def history(self) -> ProcessHistory:
         """Return when the node began and ended, and its printed lines with their times, for a picture."""
-        return ProcessHistory.of(self.file.name, self._process, was_stopped=self.was_stopped)
+        return ProcessHistory.of(self.file.name, self.process, was_stopped=self.was_stopped)
 
     def stop(self) -> None:
         """Send SIGINT, as Ctrl-C does. If the node does not end within 3 s, kill it and print that."""
         self._expect_no_more()
         if self.is_running:
             self.was_stopped = True
-            if not self._process.stop():
+            if not self.process.stop():
                 print(f"{self.file.name} did not end within 3 s of Ctrl-C and was killed")
 
     def kill(self) -> None:
         """End the node like a crash or a power cut: it cannot clean up or announce its end to other nodes."""
         self.was_stopped = True
         self._expect_no_more()
-        self._process.kill()
+        self.process.kill()
 
     def _expect_no_more(self) -> None:
         while self._expected:
@@ -150,13 +154,6 @@ class StudentNode:
     def __repr__(self) -> str:
         state = "running" if self.is_running else f"ended with exit status {self.exit_status}"
         return f"<{self.file.name}: {state}>"
-
-
-def _advice_and_output(node: StudentNode) -> str:
-    """Return the self-check's advice on the node's last exception, followed by all that the node printed."""
-    remedy = remedy_for_a_traceback(node.log())
-    advice = remedy.help.replace("{of}", "") + " " if remedy else ""
-    return f"{advice}It printed:\n{node.log()}"
 
 
 def _nodes_seen() -> dict[bytes, str]:

@@ -12,7 +12,7 @@ from rosgraph_msgs.msg import Clock
 from lab.client import topics
 from lab.client.commands import walking
 from lab.client.connection import connection
-from lab.client.waiting import wait_until
+from lab.client.exchange import wait_until
 from lab.pictures.live_view import stop_watching, watch_robot
 from lab.running.robot import robot_process, start_robot
 from lab.running.session import stop_everything

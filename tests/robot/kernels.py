@@ -21,6 +21,7 @@ class Kernel:
     """A running kernel with `lab` imported, in a folder."""
 
     def __init__(self, folder: Path) -> None:
+        self.folder = folder
         self.manager: KernelManager
         self.manager, self.client = start_new_kernel(kernel_name="python3", cwd=str(folder))
         self.run("import lab")

@@ -140,7 +140,8 @@ def ended_by_itself(run: Record) -> ev.NodeExited | None:
 
 def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
     """Return what to do about a program that ended by itself, or by an exception."""
-    if exited.returncode and (remedy := remedy_for_a_traceback(run.output("stderr"))):
+    service = unanswered_service(run)
+    if exited.returncode and (remedy := remedy_for_a_traceback(run.output("stderr"), service)):
         return _with_place(remedy, run)
     if -exited.returncode in _CRASHED:
         return Remedy(
@@ -166,12 +167,13 @@ def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
     return Remedy("main() returned before everything was done: check what it waits for.")
 
 
-def remedy_for_a_traceback(output: str) -> Remedy | None:
-    """Return what to do about the last exception in a program's output, if it is a known one."""
+def remedy_for_a_traceback(output: str, service: str = "") -> Remedy | None:
+    """Return what to do about the last exception in a program's output, if it is known; `service` was called."""
     traceback = _last_traceback(output)
     for sign, remedy in _SIGNS.items():
         if found := re.search(sign, traceback, re.MULTILINE):
-            return Remedy(found.expand(remedy.help), remedy.see)
+            help = found.expand(remedy.help).replace("{of}", f" of {service}" if service else "")
+            return Remedy(help, remedy.see)
     return None
 
 
@@ -198,11 +200,10 @@ def raised_in(traceback: str) -> str | None:
 
 
 def _with_place(remedy: Remedy, run: Record) -> Remedy:
-    """Add the student's line that raised, if known, and the service whose request was being answered."""
+    """Add the student's line that raised, if known."""
     place = raised_in(_last_traceback(run.output("stderr")))
     where = f" It was raised in {place}." if place else ""
-    service = unanswered_service(run)
-    return Remedy(remedy.help.replace("{of}", f" of {service}" if service else "") + where, remedy.see)
+    return Remedy(remedy.help + where, remedy.see)
 
 
 def _last_traceback(output: str) -> str:

@@ -11,10 +11,11 @@ from typing import Any
 from chapters.support import harness
 from chapters.support.harness.recorded_turner import TERMINAL_CALLS
 from humanoid_interfaces.action import WalkTo
+from lab.client.exchange import wait_until
 from lab.client.goals import Goal, send_goal
 from lab.client.outcomes import Outcome
 from lab.client.topics import mode, pose
-from lab.client.waiting import becomes_true, wait_until
+from lab.client.waiting import becomes_true
 from lab.errors import NodeEndedError, NoRobotError, NotInTimeError
 from lab.learning.gap import Gap, expect, not_yet
 from lab.learning.gap_check_helpers import last_error

@@ -17,14 +17,13 @@ from lab.client.topics import mode, pose
 from lab.client.waiting import becomes_true
 from lab.errors import NodeEndedError
 from lab.learning.gap import Gap, expect, not_yet
-from lab.learning.gap_check_helpers import last_error_or_line
+from lab.learning.gap_check_helpers import advice_on, last_error_or_line
 from lab.running.robot import restart_robot, robot_process
 from lab.running.student_nodes import StudentNode, run_node
 
 TOPICS = {"odom", "robot_state", "battery_state", "joint_states", "imu"}
 PAUSE_SERVICE = "/sim/set_pause"
 ACCEPTED_DISTANCES = (0.9, 1.5)  # m; the robot finishes its step after the last command
-DEFAULT_ADVICE = "fix the error that is named here"
 
 
 def receives_five_topics() -> str:
@@ -123,8 +122,7 @@ def _require_running(node: StudentNode, hints: Mapping[str, str]) -> None:
 
 def _ended(log: str, file: str, hints: Mapping[str, str]) -> Exception:
     reason = last_error_or_line(log, file)
-    advice = next((hint for part, hint in hints.items() if part in reason), DEFAULT_ADVICE)
-    return not_yet(f"the node has ended: {reason}", "a node that runs", advice)
+    return not_yet(f"the node has ended: {reason}", "a node that runs", advice_on(log, reason, hints))
 
 
 def _received_topics(log: str) -> set[str]:

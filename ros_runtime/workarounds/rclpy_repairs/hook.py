@@ -9,6 +9,9 @@ from __future__ import annotations
 import os
 import sys
 
+STACK_FILE = "COURSE_STACK_FILE"  # variable with the descriptor of the file to which a program of the lab writes stacks
+STACK_SIGNAL = 23  # SIGURG, which does not end a program without a handler
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:  # typing itself takes a millisecond to import
     from collections.abc import Callable, Sequence
@@ -20,11 +23,17 @@ if TYPE_CHECKING:  # typing itself takes a millisecond to import
 def install() -> None:
     """Install finders that repair modules when they are imported; unset RMW_IMPLEMENTATION unless it is the default.
 
+    A program of the lab also gets a handler that writes the stacks of its threads.
+
     A shell may set that variable for other ROS work. If its middleware is not installed, rcl ends the process at the
     import of rclpy. If it is installed, the course's nodes must still use the default middleware.
     """
     if os.environ.get("RMW_IMPLEMENTATION") not in (None, "rmw_fastrtps_cpp"):
         del os.environ["RMW_IMPLEMENTATION"]
+    if descriptor := os.environ.pop(STACK_FILE, ""):
+        import faulthandler
+
+        faulthandler.register(STACK_SIGNAL, int(descriptor))
     if os.environ.get("RCLPY_REPAIRS") == "off":
         return
     for name, repair in (

@@ -13,6 +13,7 @@ import lab
 from lab.learning import gap as gap_module
 from lab.learning.gap import Gap, expect, find_gap, write_and_check
 from lab.learning.gap_cells import fill, gaps_of, solution
+from lab.learning.gap_check_helpers import advice_on, last_error
 from lab.learning.progress_file import read_entries
 
 PROGRAM = """def double(x):
@@ -155,3 +156,33 @@ def test_a_syntax_error_in_a_written_file_is_named_at_once(
 ) -> None:
     gap_module._name_syntax_error(SimpleNamespace(info=SimpleNamespace(raw_cell=cell)))
     assert capsys.readouterr().out == printed
+
+
+SPUN = """Traceback (most recent call last):
+  File "/course/status.py", line 40, in main
+    rclpy.spin(node)
+  File "/x/rclpy/__init__.py", line 247, in spin
+    executor.spin_once()
+"""
+
+
+@pytest.mark.parametrize(
+    ("rest", "error", "advice"),
+    [
+        (
+            '  File "/x/rclpy/service.py", line 75, in send_response\n    raise TypeError()\nTypeError\n',
+            "TypeError",
+            "Your service callback returned nothing, or something other than the response.",
+        ),
+        (
+            '  File "/course/status.py", line 21, in on_request\n    x = 1 + None\nTypeError: unsupported operand\n',
+            "TypeError: unsupported operand in `x = 1 + None`",
+            "fix the error that is named here",
+        ),
+    ],
+)
+def test_an_error_is_quoted_with_the_line_that_raised_it_and_its_own_advice(
+    rest: str, error: str, advice: str
+) -> None:
+    assert last_error(SPUN + rest, "status.py") == error
+    assert advice_on(SPUN + rest, error).startswith(advice)

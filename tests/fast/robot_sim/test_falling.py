@@ -54,6 +54,20 @@ def test_after_a_fall_it_stays_down(humanoid):
     assert not humanoid.motors_enabled
 
 
+@pytest.mark.parametrize("seconds", [1.6, 2.0, 2.2])
+def test_without_power_a_walking_robot_falls_like_a_stone_and_then_sits_on_its_legs(humanoid, seconds):
+    humanoid.walk_velocity(0.3, 0.0, 0.0)
+    simulate(humanoid, seconds)
+    humanoid.set_motor_power(False)
+    began, height = humanoid.time, humanoid.base_pose().position[2]
+    for duration, most in ((0.1, 0.01), (0.1, 0.04)):  # s, m above the stone
+        simulate(humanoid, duration)
+        stone = height - 9.81 / 2 * (humanoid.time - began) ** 2
+        assert -0.005 < humanoid.base_pose().position[2] - stone < most
+    simulate(humanoid, 0.1)
+    assert humanoid.base_pose().position[2] > 0.24  # the stone is at 0.16 m
+
+
 def test_without_motor_power_it_collapses_and_falls(humanoid):
     humanoid.set_motor_power(False)
     humanoid.step()
