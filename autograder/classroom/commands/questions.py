@@ -84,7 +84,7 @@ def questions(
         try:
             marked = enter_questions(nbgrader, sheets, submitted, number)
         except NbgraderError as error:
-            raise error_exit(console, str(error), COMMAND_FAILED) from error
+            raise CommandFailed(str(error)) from error
         console.print(
             f"{marked} of {len(sheets)} students are marked; Formgrader, started in {nbgrader}, shows the others under "
             f"Manual Grading > {assignment_of(exercise)}",
