@@ -1,6 +1,7 @@
 """Attack: prints a status for every answer it can think of, and ends with status 0 whatever happens
 Outcome: the line has to be the one line, with the message of the answer
 Caught by: prints_the_status
+Also fails: gives_up_without_servers, asks_once_more, makes_use_of_the_second_answer, copes_with_two_servers
 """
 
 import sys
