@@ -89,10 +89,11 @@ def why_aborted(nodes: Iterable[StudentNode], action: str, goal: str) -> str:
 
 
 def server_of(nodes: Iterable[StudentNode], name: str) -> StudentNode | None:
-    """Return the running node that offers a service or action, or that nobody has discovered; None if there is none."""
+    """Return the running node that offers a service or action; if none is known to, the only one that runs, or None."""
     wanted = connection().node.resolve_service_name(name)
     running = [node for node in nodes if node.is_running]
-    return next((node for node in running if not node.names or wanted in _offered_by(node)), None)
+    offering = [node for node in running if wanted in _offered_by(node)] or running
+    return offering[0] if len(offering) == 1 else None
 
 
 def _offered_by(node: StudentNode) -> dict[str, str]:
