@@ -20,7 +20,7 @@ import nbformat
 import numpy as np
 import psutil
 import pytest
-from nbformat.v4 import new_code_cell, new_notebook
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from PIL import Image
 from playwright.sync_api import Locator, Page, expect, sync_playwright
 
@@ -43,6 +43,10 @@ OTHER_OUTPUTS = (
 from ros_runtime.drawing.sequence_diagram import Arrow, sequence_svg
 from IPython.display import HTML
 HTML(sequence_svg([Arrow(0.0, "notebook", "server", "request")], title="A call"))""",
+    """
+display({"text/plain": ""}, raw=True)  # a notice that was removed
+of_an_ended_kernel = {"version_major": 2, "version_minor": 0, "model_id": "ended"}
+display({"application/vnd.jupyter.widget-view+json": of_an_ended_kernel}, raw=True)""",
     "%%gap merged.py\nnothing",
 )
 UNNAMED_SLIDER = {"aria-input-field-name": "ipywidgets 8 names the label beside a slider, not its handle"}
@@ -147,6 +151,13 @@ def test_the_robot_is_shown_beside_the_notebook_that_has_it(page: Page, folder: 
     page.reload()
     page.get_by_text("STANDING at").wait_for()
     assert page.get_by_text("model not found").count() == 0
+    page.locator('[data-command="docmanager:save"]').first.click()
+    require_saved(page)
+    page.locator(".lm-DockPanel .lm-TabBar-tab", has_text="first").locator(".lm-TabBar-tabCloseIcon").click()
+    page.get_by_role("listitem", name="Name: first.ipynb").dblclick()
+    page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
+    page.get_by_text("STANDING at").wait_for()
+    expect(panels(page)).to_have_count(1)
 
     open_chapter(page, address, "second")
     run_first_cell(page, "second")
@@ -171,6 +182,10 @@ def test_the_first_page_shows_what_is_done_and_a_first_step(page: Page) -> None:
     page.keyboard.press("Shift+Enter")
     page.get_by_text("Nothing done yet. Your first step").wait_for()
     assert page.get_by_label("Predictions: 0 of").count() >= 5
+    sizes = "rows => rows.flatMap(row => [row.offsetWidth, row.offsetHeight])"
+    widths_and_heights = page.get_by_role("row").evaluate_all(sizes)
+    assert max(widths_and_heights[::2]) <= 576  # px; beside the panel of the robot there is no more
+    assert max(widths_and_heights[1::2]) < 35  # px, of one line
     require_accessible(page, OUTPUTS)
     page.get_by_role("row").get_by_role("link", name="battery_service").click()
     page.get_by_role("heading", name="Battery service").wait_for()
@@ -222,22 +237,29 @@ def test_a_self_check_saves_the_program_that_it_checks(page: Page, folder: Path,
     page.get_by_text("Run All Cells", exact=True).click()
     page.get_by_text("is saved with the program that was checked").wait_for()
     assert "not saved yet" in notebook.read_text()
+    require_saved(page)
+    assert "is saved with the program" in notebook.read_text()
     failed = page.locator(".course-verdicts details[open]").first
     assert "failed: Each of the twelve situations" in failed.inner_text()
     in_both_themes(page)
     failed.get_by_role("link", name="Topic, service or action?").click()
-    page.get_by_role("heading", name="Topic, service or action?").wait_for()
+    lesson = page.get_by_role("heading", name="Topic, service or action?")
+    expect(lesson).to_be_in_viewport(timeout=1000 * TIMEOUT)
 
 
 def test_questions_plots_and_drawings_suit_both_themes(page: Page, folder: Path, address: str) -> None:
-    write(folder / TOP / "chapters" / "outputs.ipynb", *map(new_code_cell, OTHER_OUTPUTS))
+    drawing_in_text = new_markdown_cell("![A deadlock](images/deadlock.svg)")
+    write(folder / TOP / "chapters" / "outputs.ipynb", drawing_in_text, *map(new_code_cell, OTHER_OUTPUTS))
     page.goto(address.replace("start_here.ipynb", "chapters/outputs.ipynb") + "&reset")
     page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
     page.get_by_role("menuitem", name="Run", exact=True).click()
     page.get_by_text("Run All Cells", exact=True).click()
     page.get_by_text("GapError: merged.py").first.wait_for()
     in_both_themes(page, left_out=UNNAMED_SLIDER)
-    for drawing in page.locator(".course-drawing").all():
+    ended = page.get_by_text("model not found")
+    assert "Run this cell again." in ended.evaluate("ended => getComputedStyle(ended, '::after').content")
+    assert page.locator(".jp-OutputArea-child:visible", has=page.locator("pre:empty")).count() == 0
+    for drawing in page.locator(".course-drawing, .jp-RenderedMarkdown img").all():
         assert "invert" in drawing.evaluate("drawing => getComputedStyle(drawing).filter")
     frame = {found["id"] for found in violations(page).response["violations"]}
     stated = (PROJECT / "docs/accessibility.md").read_text(encoding="utf-8")
@@ -326,6 +348,13 @@ def open_chapter(page: Page, address: str, name: str) -> None:
 def run_first_cell(page: Page, name: str) -> None:
     page.get_by_label(f"{name}.ipynb").get_by_text("import lab").click()
     page.keyboard.press("Shift+Enter")
+
+
+def require_saved(page: Page) -> None:
+    """Require that the tab of the notebook soon shows no unsaved change."""
+    expect(page.locator(".lm-DockPanel .lm-mod-current.jp-mod-dirty")).to_have_count(
+        0, timeout=1000 * TIMEOUT
+    )
 
 
 def panels(page: Page) -> Locator:

@@ -119,6 +119,8 @@ def drawings() -> Iterator[tuple[str, str]]:
     ended: Any = SimpleNamespace(history=lambda: ProcessHistory("a.py", 0.0, 2.0, "killed", marks))
     yield "timeline", lab.draw_timeline(ended).data
     yield "bars", plots.bars_svg({"a": 1}, title="t", across="x", up="y")
+    for picture in (PROJECT / "chapters/images").glob("*.svg"):
+        yield picture.name, picture.read_text(encoding="utf-8")
 
 
 def test_letters_stand_out_on_a_light_and_on_a_dark_page() -> None:

@@ -57,8 +57,13 @@ def test_a_film_is_folded_below_its_check_and_has_an_alternative_text(shown: lis
     table.film(CHECKS[1].id, "is being drawn …")
     assert "<dt>film</dt><dd>is being drawn …</dd>" in shown[-1]["text/html"]
     table.film(CHECKS[1].id, 'The "robot" falls', b"webp")
-    folded = '<details><summary>Film of these seconds</summary><div class="whole-width"><img src="data:image/webp'
-    assert f'{folded};base64,d2VicA==" alt="The &#34;robot&#34; falls"></div></details>' in shown[-1]["text/html"]
+    folded = (
+        '<details><summary>Film of these seconds</summary><div class="whole-width"><img src="data:image/webp'
+    )
+    assert (
+        f'{folded};base64,d2VicA==" alt="The &#34;robot&#34; falls"></div></details>'
+        in shown[-1]["text/html"]
+    )
     table.film(CHECKS[1].id, "")
     assert "film" not in shown[-1]["text/html"].rpartition("</style>")[2]
 

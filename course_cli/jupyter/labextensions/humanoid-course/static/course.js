@@ -2,7 +2,7 @@
 
 const PANEL = "Robot"; // the title that lab/pictures/panel.py gives to it
 const LAYOUT_TIMEOUT = 20; // s, for a chapter on a busy machine
-const STEADY = 5; // times that a heading was seen at the same place
+const STEADY = 15; // times that a heading was seen at the same place; JupyterLab may still scroll back to the first cell
 const PERIOD = 200; // ms
 
 const pause = () => new Promise((resolve) => setTimeout(resolve, PERIOD));
@@ -24,8 +24,8 @@ async function land(shell, path, fragment) {
   for (let seen = 0, place = null; seen < STEADY && Date.now() < end && !input.signal.aborted; await pause()) {
     const notebook = [...shell.widgets("main")].find((widget) => widget.context?.path === path);
     const heading = notebook?.node.querySelector(`[id="${id}"], [data-jupyter-id="${id}"]`);
-    const top = heading?.getBoundingClientRect().top;
-    seen = heading && top === place ? seen + 1 : 0;
+    const { top, height } = heading?.getBoundingClientRect() ?? {};
+    seen = height && top === place ? seen + 1 : 0; // without height while the notebook is hidden
     heading?.scrollIntoView();
     place = heading?.getBoundingClientRect().top;
   }
