@@ -19,6 +19,7 @@ from autograder.classroom.class_grading.class_files import ClassFiles
 from autograder.classroom.class_grading.output import (
     add_all,
     left_aside,
+    print_changed_checks,
     print_recordings,
     print_summary,
     print_ungraded,
@@ -34,6 +35,8 @@ def grade_once(console: Console, request: BatchRequest) -> int:
     is_entered = True
     with prepared(console, request, collection.works) as batch:
         record = replace(batch.record, left_aside=collection.ignored, refused=collection.refused)
+        if request.resume:
+            print_changed_checks(console, record, works)
         results = _grade(batch, request.shard.part(works) if request.shard else works, record)
         rows = record.rows if request.keeps_others else ()  # without the rows of removed submissions
         record = replace(record, rows=rows, left_aside=left_aside(collection, results))

@@ -9,10 +9,13 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from autograder.classroom.batch.collection import Collection
+from autograder.classroom.batch.batch_record import BatchRecord
+from autograder.classroom.batch.collection import Collection, Work
 from autograder.classroom.batch.records import GRADES
 from autograder.classroom.batch.runner import Graded
+from autograder.classroom.batch.version import checks_version
 from autograder.classroom.class_grading.class_files import ClassFiles
+from autograder.engine.exercise import exercises_folder
 from autograder.recording.kept import FOLDER as RECORDINGS
 from autograder.report.table import class_table
 
@@ -30,6 +33,22 @@ def add_all(console: Console, files: ClassFiles, results: Sequence[Graded]) -> N
     with Progress(*columns, console=console) as progress:
         for result in progress.track(results, description="gradebook"):
             files.add(result)
+
+
+def print_changed_checks(console: Console, before: BatchRecord, works: Sequence[Work]) -> None:
+    """Print for which exercises a resumed batch keeps no grade, because their checks or the engine have changed."""
+    changed = {
+        row.exercise
+        for row in before.rows
+        if row.version != checks_version(exercises_folder() / row.exercise)
+    } & {work.exercise for work in works}
+    if changed:
+        console.print(
+            f"the checks or the engine have changed, so these are graded again: {', '.join(sorted(changed))}; "
+            "--exercise NAME grades only another exercise, and keeps these grades",
+            style="yellow",
+            markup=False,
+        )
 
 
 def print_problems(console: Console, files: ClassFiles) -> bool:

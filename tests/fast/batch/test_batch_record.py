@@ -7,12 +7,14 @@ import json
 from dataclasses import replace
 
 import pytest
+from rich.console import Console
 
 from autograder.classroom.batch.batch_record import BATCH, BatchRecord, merged_record, read_batch, write_batch
 from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.job import Effort
 from autograder.classroom.batch.runner import Graded
 from autograder.classroom.batch.version import checks_version
+from autograder.classroom.class_grading.output import print_changed_checks
 from autograder.engine.exercise import exercises_folder
 from autograder.engine.verdict import CheckVerdict, Grade
 
@@ -63,6 +65,15 @@ def test_it_has_each_submission_with_its_evidence_and_the_sums(tmp_path):
     }
     assert (anna["began"], anna["handed_in"]) == ("2026-03-01T12:00:01+00:00", "2026-02-28 08:00:00 UTC")
     assert read_batch(tmp_path) == record
+
+
+def test_a_resumed_batch_says_which_exercises_are_graded_again():
+    (row,) = BEGUN.with_results([result("anna")]).rows
+    rows = [row, replace(row, exercise="walk_to"), replace(row, exercise="walk_client")]
+    console = Console(record=True, width=200)
+    works = [Work("anna", "battery_service"), Work("anna", "walk_to")]
+    print_changed_checks(console, replace(BEGUN, rows=rows), works)
+    assert "so these are graded again: walk_to; --exercise" in console.export_text()
 
 
 def test_a_later_result_replaces_the_row_and_the_others_stay():
