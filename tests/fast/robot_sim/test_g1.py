@@ -99,6 +99,9 @@ def test_power_that_comes_back_in_time_lets_it_stand(robot):
     robot.set_motor_power(True)
     simulate(robot, 3.0)
     assert robot.mode is Mode.STANDING
+    robot.walk_velocity(0.2, 0.0, 0.0)
+    simulate(robot, 0.1)
+    assert robot.mode is Mode.WALKING
 
 
 def test_an_empty_battery_switches_it_off(robot):

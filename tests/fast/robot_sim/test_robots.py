@@ -18,11 +18,12 @@ INSTALLER = PROJECT / "setup" / "install_g1.sh"
 def test_each_missing_part_is_named(package, monkeypatch):
     monkeypatch.setattr(body, "find_spec", lambda name: None)
     with pytest.raises(MissingParts, match=f"^the G1 needs {package}, which is not installed"):
-        body._part(package)
+        body.part_of(package)
 
 
 def test_the_command_says_in_one_line_what_to_type(monkeypatch):
     monkeypatch.setattr(body, "find_spec", lambda name: None)
+    body.g1_body.cache_clear()
     monkeypatch.setattr(sys, "argv", ["sim", "--robot", "g1"])
     with pytest.raises(SystemExit) as ended:
         main()
