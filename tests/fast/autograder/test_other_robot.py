@@ -4,25 +4,27 @@ from __future__ import annotations
 
 import pytest
 
-from autograder.authoring.checks import MAY_REST
-from autograder.engine.exercise import load_exercise
+from autograder.authoring.checks import MAY_REST, Scenario
+from autograder.engine.exercise import Exercise, load_exercise
 from autograder.other_robot import WALKING_EXERCISES, NotOnThisRobot, require_robot, with_robot
 from g1 import needs_g1
 from robot_sim.ros.options import parse_options
 
 
+def scenarios_of(exercise: Exercise) -> set[Scenario]:
+    return {scenario for check in exercise.checks for scenario in check.on}
+
+
 @pytest.mark.parametrize("name", WALKING_EXERCISES)
 def test_every_robot_of_the_scenarios_is_the_other_one_and_no_check_has_points(name):
     exercise = load_exercise(name, hidden=False)
-    before = [[scenario.robot for scenario in check.on] for check in exercise.checks]
-    used = len({scenario for check in exercise.checks for scenario in check.on})
-    with_robot("g1", exercise)
-    assert exercise.max_score() == 0
-    assert len({scenario for check in exercise.checks for scenario in check.on}) == used
-    for check, robots in zip(exercise.checks, before, strict=True):
-        for scenario, options in zip(check.on, robots, strict=True):
-            if options is None:
-                assert scenario.robot is None
+    extra = with_robot("g1", exercise)
+    assert extra.max_score() == 0 < exercise.max_score()
+    assert len(scenarios_of(extra)) == len(scenarios_of(exercise))
+    for check, usual in zip(extra.checks, exercise.checks, strict=True):
+        for scenario, before in zip(check.on, usual.on, strict=True):
+            if before.robot is None:
+                assert scenario is before
             else:
                 assert parse_options(scenario.robot).robot == "g1"
                 assert MAY_REST not in scenario.robot
