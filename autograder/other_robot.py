@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from autograder.authoring.checks import MAY_REST, Scenario
+from autograder.authoring.checks import MAY_REST, Check, Scenario
 from autograder.engine.exercise import Exercise
 from robot_sim.body import body_named
 from ros_runtime.course_error import CourseError
@@ -38,12 +38,14 @@ def require_robot(robot: str, exercise: str) -> None:
 
 
 def with_robot(robot: str, exercise: Exercise) -> Exercise:
-    """Let the robot of all scenarios be another one, and the checks be worth no points; return the exercise."""
-    changed: dict[Scenario, Scenario] = {}
-    for check in exercise.checks:
-        check.points = 0
-        check.on = tuple(changed.setdefault(each, _with_robot(robot, each)) for each in check.on)
-    return exercise
+    """Return the exercise with another robot in its scenarios, and with checks that are worth no points."""
+    scenarios: dict[Scenario, Scenario] = {}  # each runs once, even if several checks judge it
+
+    def extra(check: Check) -> Check:
+        on = tuple(scenarios.setdefault(each, _with_robot(robot, each)) for each in check.on)
+        return replace(check, points=0, on=on)
+
+    return replace(exercise, checks=[extra(check) for check in exercise.checks])
 
 
 def _with_robot(robot: str, scenario: Scenario) -> Scenario:

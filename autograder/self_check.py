@@ -36,7 +36,9 @@ if TYPE_CHECKING:
 
 OnEvidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
 
-EXTRA = "An extra, which gives no points and changes no progress: these checks run on the robot {robot}."
+EXTRA = (
+    "An extra, which gives no points and changes no progress: these checks are made with the robot {robot}."
+)
 NOTEBOOK_WIDTH = 104  # characters; fits into JupyterLab with its file browser on a screen of 1280 pixels
 
 
@@ -160,6 +162,12 @@ def check_with_progress(
         result = grade(submission, loaded, options, watcher, arenas=arenas)
     console.print()
     console.print(Text(summary(result), style="bold") if table else grade_table(result))
+    if robot:
+        passed = sum(verdict.status == "passed" for verdict in result.checks)
+        said = (
+            f"{passed} of {len(result.checks)} checks passed on the robot {robot}: an extra, without points."
+        )
+        console.print(said, style="bold", markup=False)
     if table and table.evidence:
         _add_films(table, loaded, result)
     if recordings and recorder:

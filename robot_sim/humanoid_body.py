@@ -1,11 +1,10 @@
-"""The course's own humanoid as one kind of robot."""
+"""The course's own humanoid, that of humanoid.xml, as one kind of robot."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
-import mujoco
+from mujoco import MjData, MjModel
 
 from robot_sim.arms.joint_trajectory import MOVABLE
 from robot_sim.body import Body
@@ -22,35 +21,27 @@ from robot_sim.walking.walker_parameters import WalkerParameters
 from robot_sim.walking.walking_limits import WalkingLimits
 
 
-class HumanoidBody(Body):
-    """The robot of humanoid.xml, walked by a controller that plans footsteps."""
+def walker_of(model: MjModel, data: MjData, state: MjData | None = None) -> Walker:
+    """Make the controller that plans footsteps; it reads the state in `data`, or an estimated one in `state`."""
+    return Walker(model, data, state or data, trunk_of(model), WalkerParameters(dimensions_of(model)))
 
-    name = "humanoid"
-    scenes = tuple(SCENES)
-    joints = tuple(ACTUATED_JOINTS)
-    movable = MOVABLE
-    hands = SIDES
-    limits = WalkingLimits()
-    heights = HeightLimits()
-    fallen_height = 0.38
-    may_rest = True
 
-    def model(self, scene: str, shape: Callable[[mujoco.MjSpec], object]) -> mujoco.MjModel:
-        """Compile the robot in a scene; `shape` is called with the model before."""
-        return build_model(scene, shape=shape)
+def _take_stance(model: MjModel, data: MjData, x: float, y: float, yaw: float, height: float) -> None:
+    take_stance(model, data, replace(dimensions_of(model), stance_height=height), x, y, yaw)
 
-    def stance_height(self, model: mujoco.MjModel) -> float:
-        """Return the height (m) of the pelvis above the floor while it stands."""
-        return dimensions_of(model).stance_height
 
-    def take_stance(
-        self, model: mujoco.MjModel, data: mujoco.MjData, x: float, y: float, yaw: float, height: float
-    ) -> None:
-        """Reset the state to standing, or crouching, with the pelvis at (x, y, height) m, heading `yaw` rad."""
-        take_stance(model, data, replace(dimensions_of(model), stance_height=height), x, y, yaw)
-
-    def walker(
-        self, model: mujoco.MjModel, data: mujoco.MjData, state: mujoco.MjData | None = None
-    ) -> Walker:
-        """Make the controller; it reads the state in `data`, or in `state` if the state is estimated."""
-        return Walker(model, data, state or data, trunk_of(model), WalkerParameters(dimensions_of(model)))
+HUMANOID = Body(
+    name="humanoid",
+    scenes=tuple(SCENES),
+    joints=tuple(ACTUATED_JOINTS),
+    limits=WalkingLimits(),
+    heights=HeightLimits(),
+    fallen_height=0.38,
+    model=lambda scene, shape: build_model(scene, shape=shape),
+    stance_height=lambda model: dimensions_of(model).stance_height,
+    take_stance=_take_stance,
+    walker=walker_of,
+    movable=MOVABLE,
+    hands=SIDES,
+    may_rest=True,
+)

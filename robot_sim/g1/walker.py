@@ -74,10 +74,9 @@ class LearnedWalker(WalkingController):
 
     goal_reached = is_idle = False
     steps = 0
-    height = 0.0
+    height = math.inf  # it never crouches
 
-    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, policy: Policy, height: float) -> None:
-        self.height = height
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, policy: Policy) -> None:
         self._data, self._policy = data, policy
         self._ticks_an_action = round(1.0 / RATE / model.opt.timestep)
         self._tick = 0

@@ -8,7 +8,9 @@ from ros_runtime.record.event import Event
 
 
 class RobotReady(Event):
-    """The robot stands and its topics exist."""
+    """The robot stands and its topics exist; `fastest` is how fast it can walk, m/s."""
+
+    fastest: float = 0.4
 
 
 class RobotTruth(Event):

@@ -17,7 +17,6 @@ from ros_runtime.message_constants import GoalStatus, name_of
 TERMINAL = (GoalStatus.SUCCEEDED, GoalStatus.CANCELED, GoalStatus.ABORTED)
 AT_GOAL_DISTANCE = 0.1  # m; a robot that is no farther from its goal need not walk
 BIG_TURN = 0.3  # rad
-MAX_WALKING_SPEED = 0.4  # m/s
 MIN_STANDING_TIME = 0.5  # s; a robot that was observed for less may still be moving
 # A robot is "just before arrival" if its distance and its turn to the goal are within both limits:
 NEAR_DISTANCE = 0.15  # m, in addition to the tolerance
@@ -27,6 +26,12 @@ NEAR_TURN = 0.3  # rad
 def run_of(goal: Goal) -> Transcript:
     """Return the whole run that a goal belongs to."""
     return cast(Transcript, goal.run)
+
+
+def can_walk_at(goal: Goal, velocity: float) -> bool:
+    """Return whether the robot of this run can walk at a velocity (m/s)."""
+    ready = run_of(goal).first(ev.RobotReady) or ev.RobotReady(t=0.0)
+    return velocity <= ready.fastest
 
 
 def accepted(goal: Goal) -> bool:

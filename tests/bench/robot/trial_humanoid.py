@@ -8,7 +8,7 @@ from bench.robot.height_change import HeightChange, HeightPhase, PhasedHeight
 from bench.robot.reach import HandTarget, Reach, ReachingUpperBody
 from bench.robot.state_estimate import StateEstimate
 from robot_sim.humanoid import Humanoid
-from robot_sim.humanoid_body import HumanoidBody
+from robot_sim.humanoid_body import walker_of
 from robot_sim.model.side import Side
 from robot_sim.walking.body_height import HeightLimits
 from robot_sim.walking.footsteps import Command
@@ -68,7 +68,7 @@ class TrialHumanoid(Humanoid):
         if self._estimates_state:
             self._estimate = StateEstimate(self.model, self.data, self._imu)
         state = self._estimate.data if self._estimate else None
-        self._walker = walker = HumanoidBody().walker(self.model, self.data, state)
+        self._walker = walker = walker_of(self.model, self.data, state)
         self._height = PhasedHeight(walker, self.body.stance_height(self.model), HeightLimits())
         if self._estimate:
             self._height.before_tick = self._estimate.tick

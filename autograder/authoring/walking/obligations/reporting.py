@@ -43,7 +43,7 @@ def estimates_the_time(goal: Goal) -> str | None:
     if not life.accepted(goal) or not goal.feedback:
         return None
     estimates = [seconds(each.feedback.estimated_time_remaining) for each in goal.feedback]
-    is_slow = goal.request.max_velocity <= life.MAX_WALKING_SPEED
+    is_slow = life.can_walk_at(goal, goal.request.max_velocity)
     for each, estimate in zip(goal.feedback, estimates, strict=True):
         much = is_slow and each.feedback.distance_remaining > FAR_DISTANCE
         least = MIN_ESTIMATE if much else 0.0

@@ -31,7 +31,12 @@ _SETTLE = (
 def obeys_max_velocity(goal: Goal) -> str | None:
     """From the start to the arrival the robot's mean speed is at most max_velocity."""
     limit = goal.request.max_velocity
-    if not life.accepted(goal) or not limit or limit > life.MAX_WALKING_SPEED or not life.began_at_rest(goal):
+    if (
+        not life.accepted(goal)
+        or not limit
+        or not life.can_walk_at(goal, limit)
+        or not life.began_at_rest(goal)
+    ):
         return None
     if (
         not life.is_undisturbed(goal)

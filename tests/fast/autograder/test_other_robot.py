@@ -1,0 +1,44 @@
+"""An exercise's checks with another robot: the same scenarios, without points."""
+
+from __future__ import annotations
+
+import pytest
+
+from autograder.authoring.checks import MAY_REST, Scenario
+from autograder.engine.exercise import Exercise, load_exercise
+from autograder.other_robot import WALKING_EXERCISES, NotOnThisRobot, require_robot, with_robot
+from g1 import needs_g1
+from robot_sim.ros.options import parse_options
+
+
+def scenarios_of(exercise: Exercise) -> set[Scenario]:
+    return {scenario for check in exercise.checks for scenario in check.on}
+
+
+@pytest.mark.parametrize("name", WALKING_EXERCISES)
+def test_every_robot_of_the_scenarios_is_the_other_one_and_no_check_has_points(name):
+    exercise = load_exercise(name, hidden=False)
+    extra = with_robot("g1", exercise)
+    assert extra.max_score() == 0 < exercise.max_score()
+    assert len(scenarios_of(extra)) == len(scenarios_of(exercise))
+    for check, usual in zip(extra.checks, exercise.checks, strict=True):
+        for scenario, before in zip(check.on, usual.on, strict=True):
+            if before.robot is None:
+                assert scenario is before
+            else:
+                assert parse_options(scenario.robot).robot == "g1"
+                assert MAY_REST not in scenario.robot
+
+
+@needs_g1
+def test_only_walking_exercises_can_be_checked():
+    require_robot("g1", "walk_to")
+    with pytest.raises(
+        NotOnThisRobot, match="move_arm cannot be checked with the robot g1, which only walks"
+    ):
+        require_robot("g1", "move_arm")
+
+
+def test_an_unknown_robot_is_refused():
+    with pytest.raises(NotOnThisRobot, match="'g2' is not known"):
+        require_robot("g2", "walk_to")
