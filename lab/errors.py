@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
+from ros_runtime.course_error import CourseError
 
-class LabError(Exception):
+
+class LabError(CourseError):
     """Base class of the lab's errors; raised itself when a function of the lab is used wrongly."""
-
-    def _render_traceback_(self) -> list[str]:
-        """Return the one line that Jupyter shows instead of a traceback through the lab's own code."""
-        return [f"{type(self).__name__}: {self}"]
 
 
 class NoRobotError(LabError):

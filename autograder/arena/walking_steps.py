@@ -84,12 +84,12 @@ class _Walker:
         """Send a goal and wait for its answer."""
         self._send_pose(name, pose_at(x, y, yaw), limit).wait_for_answer()
 
-    def go_on(self, name: str, ahead: Metres, left: Metres, turn: Radians, limit: float = 0.0) -> None:
+    def go_on(self, name: str, ahead: Metres, left: Metres, turn: Radians) -> None:
         """Send a goal relative to the robot's present pose (m, m, rad), and wait for the answer."""
         robot = self._stage.robot.state
         x = robot.x + ahead * math.cos(robot.yaw) - left * math.sin(robot.yaw)
         y = robot.y + ahead * math.sin(robot.yaw) + left * math.cos(robot.yaw)
-        self.go(name, x, y, robot.yaw + turn, limit)
+        self.go(name, x, y, robot.yaw + turn)
 
     def go_together(self, *goals: Sequence[Any]) -> None:
         """Send several goals, each [name, x, y, yaw, limit], without waiting in between; then await the answers."""

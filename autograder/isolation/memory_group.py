@@ -80,15 +80,6 @@ def make_memory_group(limit_mib: float) -> MemoryGroup | None:
     return None
 
 
-def group_folders() -> list[Path]:
-    """Return the groups of arenas that this process has made and not yet removed."""
-    return [
-        folder
-        for version in (_VERSION_1, _VERSION_2)
-        for folder in version.place.glob(f"arena-{os.getpid()}-*")
-    ]
-
-
 def _make(version: _Version, limit: int) -> MemoryGroup | None:
     folder = version.place / f"arena-{os.getpid()}-{next(_numbers)}"
     try:

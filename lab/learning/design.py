@@ -23,7 +23,7 @@ def draw_design(file: str | Path, title: str = "") -> HTML:
 
     Raises LabError when the file cannot be read, or has no link.
     """
-    design = _read(Path(file))
+    design = read_design(_text(Path(file)))
     if not design.links:
         raise LabError(f"{file} has no link yet; a link begins with a line such as {EXAMPLE!r}")
     return HTML(design_svg(design, title=title or f"The design in {file}"))
@@ -72,10 +72,6 @@ def _what_is_not_served(text: str, needs: int) -> Iterator[str]:
 
 def _count(number: int, noun: str) -> str:
     return f"{number} {noun}{'' if number == 1 else 's'}"
-
-
-def _read(path: Path) -> Design:
-    return read_design(_text(path))
 
 
 def _text(path: Path) -> str:

@@ -17,8 +17,6 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import IO
 
-import psutil
-
 from lab.pictures.labels import Mark
 from ros_runtime.workarounds import die_with_parent
 from ros_runtime.workarounds.rclpy_repairs.hook import STACK_FILE, STACK_SIGNAL
@@ -63,11 +61,6 @@ class Process:
     def exit_status(self) -> int | None:
         """None while the process runs; -n if signal n ended it."""
         return self._popen.poll()
-
-    def cpu_time(self) -> float:
-        """Return the processor time used so far, in s, with a resolution of 0.01 s. The process must be running."""
-        used = psutil.Process(self._popen.pid).cpu_times()
-        return used.user + used.system
 
     def output(self) -> str:
         """Return the last 2000 lines of stdout and, unless `own_stderr` is set, of stderr, in the order of writing."""

@@ -66,14 +66,10 @@ class ServiceClient:
         """Send a request and wait for its answer; return whether it came."""
         return self.send(request, as_=as_).wait(timeout)
 
-    def call_at_once(self, requests: Sequence[Any], *, times: int = 1) -> bool:
-        """Send several requests without waiting in between, then wait for all answers; repeat this `times` times.
+    def call_at_once(self, requests: Sequence[Any]) -> bool:
+        """Send several requests without waiting in between, then wait for all answers; return whether all came.
 
-        Send at most 10 at once: a service's queue holds 10 requests, and a correct node would lose the rest. Stop at
-        the first missing answer; return whether all answers came.
+        Send at most 10 at once: a service's queue holds 10 requests, and a correct node would lose the rest.
         """
-        for _ in range(times):
-            answered = [call.wait() for call in [self.send(request) for request in requests]]
-            if not all(answered):
-                return False
-        return True
+        answered = [call.wait() for call in [self.send(request) for request in requests]]
+        return all(answered)

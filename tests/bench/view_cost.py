@@ -6,6 +6,7 @@ import time
 from dataclasses import dataclass
 
 import ipywidgets
+import psutil
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 
@@ -119,7 +120,8 @@ def _measure(clock: _SimulatedTime, seconds: float) -> Load:
 
 def _now(clock: _SimulatedTime) -> Load:
     """Return the resources used so far."""
-    return Load(time.monotonic(), clock.seconds, robot_process().cpu_time(), time.process_time())
+    robot = psutil.Process(robot_process().pid).cpu_times()
+    return Load(time.monotonic(), clock.seconds, robot.user + robot.system, time.process_time())
 
 
 class _SimulatedTime:

@@ -43,10 +43,6 @@ def bench(
     ] = None,
     jobs: JobsOption = 2,
     robot: Annotated[bool, typer.Option(help="also run the robot's quick trials")] = True,
-    checks_of: Annotated[
-        list[str] | None,
-        typer.Option(help="measure only the time of each check of this exercise (can be repeated, or 'all')"),
-    ] = None,
     trial: Annotated[
         list[str] | None,
         typer.Option(help="run only this trial of the robot, with all its runs (can be repeated, or 'all')"),
@@ -54,7 +50,6 @@ def bench(
     quick: Annotated[bool, typer.Option("--quick", help="with --trial: a few runs of each")] = False,
 ) -> None:
     """Print the performance table."""
-    from bench.arena.check_table import bench_checks
     from bench.arena.tables import bench_arenas
     from bench.overview import bench_overview
     from bench.robot.table import bench_robot
@@ -64,7 +59,7 @@ def bench(
         raise CourseError("--against needs --arena or --submission")
     if json_file and not (arena or submission):
         raise CourseError("--json needs --arena or --submission")
-    if not (arena or submission or checks_of or trial):
+    if not (arena or submission or trial):
         bench_overview(console, runs=runs, scales=scale or [], jobs=jobs, with_robot=robot)
         return
     try:
@@ -78,9 +73,6 @@ def bench(
                 runs=runs,
                 jobs=jobs,
             )
-        elif checks_of:
-            for name in _exercises(checks_of):
-                bench_checks(console, name, jobs)
         elif trial:
             bench_robot(console, None if ALL in trial else trial, quick=quick, jobs=jobs)
     except ValueError as error:

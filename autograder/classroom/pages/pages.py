@@ -10,6 +10,7 @@ from urllib.parse import quote
 from markupsafe import Markup
 
 from autograder.classroom.nbgrader_bridge.generated_cells import HIDDEN, cell_names, hidden_help
+from autograder.classroom.pages.drawings import DrawnRuns
 from autograder.classroom.pages.figures import (
     NEEDS_HELP,
     cause,
@@ -27,8 +28,6 @@ INDEX = "index.html"  # the page that lists a student's exercises
 FOR_STUDENTS, FOR_INSTRUCTOR = "pages", "instructor"
 MAX_LESSONS = 10  # listed on the class page
 UP = "../.."  # from a submission's page to the folder of the class page
-
-DrawingsOf = Mapping[str, Sequence[str]]
 
 
 def write_class_page(
@@ -102,7 +101,7 @@ def write_student_page(folder: Path, student: str, grades: Sequence[Grade]) -> N
     )
 
 
-def write_submission_pages(folder: Path, grade: Grade, drawings: DrawingsOf) -> None:
+def write_submission_pages(folder: Path, grade: Grade, drawings: DrawnRuns) -> None:
     """Write the instructor's page, and the student's page, which only shows whether hidden checks passed.
 
     Raises:
@@ -114,7 +113,7 @@ def write_submission_pages(folder: Path, grade: Grade, drawings: DrawingsOf) -> 
     _write(folder, student_view(grade), seen, for_student=True)
 
 
-def _write(folder: Path, grade: Grade, drawings: DrawingsOf, *, for_student: bool) -> None:
+def _write(folder: Path, grade: Grade, drawings: DrawnRuns, *, for_student: bool) -> None:
     _require_plain_names(grade)
     top, other = (FOR_STUDENTS, FOR_INSTRUCTOR) if for_student else (FOR_INSTRUCTOR, FOR_STUDENTS)
     write_html(

@@ -13,6 +13,8 @@ from bench.arena import arena_costs, tables
 from bench.arena.arena_costs import ArenaCost, Cost, Costs, SubmissionCost, measure
 from bench.arena.processor_time import CannotBeMeasured, metered_group
 from bench.arena.tables import bench_arenas
+from developer.bench import bench
+from ros_runtime.course_error import CourseError
 
 PHASES = {"interpreter", "imports", "discovery", "settling", "scenario", "end"}
 
@@ -78,3 +80,8 @@ def test_two_runs_are_compared_as_ratios(tmp_path, monkeypatch):
 
 def test_the_correct_server_of_the_fairness_rows_exists():
     assert known_submission(overview.EXERCISE, overview.THREADED).kind == "correct"
+
+
+def test_an_unknown_exercise_is_refused():
+    with pytest.raises(CourseError, match="there is no exercise 'patternz'"):
+        bench(submission=["patternz"])

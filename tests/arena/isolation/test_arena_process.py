@@ -16,8 +16,9 @@ from arenas import ENVIRONMENT
 from autograder.isolation.arena_process import ArenaProcess, ArenaReport, ArenaSpec, Ended, Kind
 from autograder.isolation.bubblewrap import SandboxError
 from autograder.isolation.limits import ArenaLimits
-from autograder.isolation.memory_group import group_folders, make_memory_group
+from autograder.isolation.memory_group import make_memory_group
 from autograder.isolation.python_paths import python_read_only_paths
+from leftovers import group_folders
 
 REPOSITORY = Path(__file__).parents[3]
 

@@ -1,1 +1,1 @@
-"""Measures what arenas, gradings and checks cost, and whether a correct program passes at every scale of the clock."""
+"""Measures what arenas and gradings cost, and whether a correct program passes at every scale of the clock."""
