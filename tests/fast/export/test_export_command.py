@@ -49,7 +49,7 @@ def test_what_the_class_failed_at_is_exported_with_clause_and_lesson_and_without
     tmp_path: Path,
 ) -> None:
     failed = visible(
-        "failed", promise="clause 4, “Every request …”", help="Spin. Read chapters/05.ipynb, “Threads”."
+        "failed", promise="clause 4, “Every request …”", help="Spin.", lesson="02_services#m9-why"
     )
     batch = [grade("anna", visible(), ANNA.checks[1]), grade("bert", failed, *BERT.checks[1:])]
     graded = graded_folder(tmp_path / "graded", *batch)
@@ -62,7 +62,7 @@ def test_what_the_class_failed_at_is_exported_with_clause_and_lesson_and_without
     assert (before["day"], before["failed"], before["judged"]) == ("2026-02-20", "2", "2")
     assert (now["failed"], now["judged"]) == ("1", "2")
     assert now["clause"] == "clause 4, “Every request …”"
-    assert now["lesson"] == "chapters/05.ipynb, “Threads”"
+    assert now["lesson"] == "chapters/02_services.ipynb, “Break it: ask before there is an answer”"
     assert not [word for word in ("anna", "bert", *SECRETS) if word in text]
     course("--format", "csv", "--from", graded, "--hidden", "show")
     assert "a secret title" in (graded / "exports" / "csv" / "class_history.csv").read_text()
