@@ -125,18 +125,24 @@ def test_output_is_kept_up_to_the_limit_only(kind: Kind) -> None:
 
 @pytest.mark.parametrize("end", ["exit", "kill"])
 def test_a_daemon_does_not_outlive_the_arena(kind: Kind, end: str) -> None:
-    """The daemon has a new session and parent and ignores signals; only its end closes the pipe."""
+    """The daemon has a new session and parent and ignores signals; only its end closes the pipe.
+
+    The program does not exit before the daemon has written to the pipe.
+    """
     read, write = os.pipe()
     daemon = f"""
 import os, signal, sys
 for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGINT):
     signal.signal(number, signal.SIG_IGN)
+wait_for, written = os.pipe()
 if os.fork() == 0:
     os.setsid()
     if os.fork() == 0:
         os.close(0); os.close(1); os.close(2)
         os.write({write}, b"daemon")
+        os.write(written, b"!")
         while True: signal.pause()
+    os.read(wait_for, 1)
     os._exit(0)
 os.wait()
 if {end == "kill"}: signal.pause()
