@@ -44,7 +44,11 @@ class Shared(BaseModel):
 
 
 def share(grade: Grade, place: str = "") -> str:
-    """Write what a self-check found to the class's folder; return a sentence that says what is shared."""
+    """Write what a self-check found to the class's folder; return a sentence that says what is shared.
+
+    Raises:
+        CannotShare: the class has no shared folder, or it cannot be written.
+    """
     path = _own_entry()
     first = next((check.title for check in grade.checks if check.status != "passed"), "")
     before = _read(path)

@@ -216,7 +216,11 @@ def _days(count: int) -> str:
 
 
 def read_deadlines(given: Path | None, beside: Path) -> Deadlines | None:
-    """Read the dates of a course from `given`, or from dates.yaml in the folder around `beside`, if it exists."""
+    """Read the dates of a course from `given`, or from dates.yaml in the folder around `beside`, if it exists.
+
+    Raises:
+        CourseError: the file cannot be read, or an entry is wrong.
+    """
     path = given or beside.resolve().parent / DATES
     if not given and not path.exists():
         return None

@@ -237,7 +237,11 @@ def find_check(grade: Grade, asked: str) -> CheckVerdict | None:
 
 
 def collect_evidence(request: RegradeRequest, graded: Path, folder: Path, jobs: int) -> Evidence:
-    """Grade the submission of a request again, as it was graded, with recordings, and write the draft of the reply."""
+    """Grade the submission of a request again, as it was graded, with recordings, and write the draft of the reply.
+
+    Raises:
+        UnusableRequests: there is no such grade, program or check, or the program has changed since.
+    """
     before = next(
         (
             grade

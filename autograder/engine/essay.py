@@ -24,7 +24,12 @@ class Essay:
 
 
 def load_essay(name: str) -> Essay:
-    """Load an essay."""
+    """Load an essay.
+
+    Raises:
+        UnknownExercise: there is none of that name.
+        UnusableExercise: its author has something to fix.
+    """
     module = exercise_module(name, RUBRIC)
     try:
         return Essay(name, exercises_folder() / name, criteria_in(module), picture_in(module))

@@ -82,7 +82,11 @@ def exercises_folder() -> Path:
 
 
 def use_exercises_of(folder: Path) -> None:
-    """Work with the exercises of this folder from here on, in this process and those it starts."""
+    """Work with the exercises of this folder from here on, in this process and those it starts.
+
+    Raises:
+        UnusableExercise: the folder holds none.
+    """
     if not _names_in(folder, CHECKS, RUBRIC):
         raise UnusableExercise(f"{folder} holds no exercise; expected {folder}/<exercise>/{CHECKS}.py")
     os.environ[FOLDER_VARIABLE] = str(folder.resolve())
@@ -105,7 +109,11 @@ def all_names() -> list[str]:
 
 
 def file_names(exercise: str) -> tuple[str, ...]:
-    """Return the names of the files a student writes: one program, unless the exercise's __init__.py lists FILES."""
+    """Return the names of the files a student writes: one program, unless the exercise's __init__.py lists FILES.
+
+    Raises:
+        UnknownExercise: there is none of that name; the message lists those there are.
+    """
     return getattr(exercise_module(exercise), "FILES", (f"{exercise}.py",))
 
 
@@ -115,7 +123,12 @@ def scenario_file(exercise: str) -> Path:
 
 
 def load_exercise(name: str, *, hidden: bool) -> Exercise:
-    """Load an exercise with or without its hidden checks."""
+    """Load an exercise with or without its hidden checks.
+
+    Raises:
+        UnknownExercise: there is none of that name, or a person marks it; the message lists those there are.
+        UnusableExercise: its author has something to fix.
+    """
     # Imported late: it takes time, and a command that lists names does not need it.
     from autograder.authoring.checks import checks_in
 
@@ -135,7 +148,12 @@ def load_exercise(name: str, *, hidden: bool) -> Exercise:
 
 
 def exercise_module(exercise: str, module: str = "") -> ModuleType:
-    """Import a module of an exercise's folder, or, without a name, the folder as a package."""
+    """Import a module of an exercise's folder, or, without a name, the folder as a package.
+
+    Raises:
+        UnknownExercise: there is no such exercise.
+        UnusableExercise: the module cannot be imported.
+    """
     folder = exercises_folder()
     if exercise not in all_names():
         raise UnknownExercise(

@@ -22,6 +22,9 @@ def require_hidden(hidden: Iterable[Path], shown: Iterable[str | Path] | None = 
     Args:
         hidden: solutions, hidden checks, submissions, grades; they need not exist yet.
         shown: the paths that sandboxes can read; None: those that students' sandboxes can read on this machine.
+
+    Raises:
+        CourseError: a hidden path lies in a readable one.
     """
     shown = [*SYSTEM_PATHS, *student_paths()] if shown is None else list(shown)
     for path in hidden:

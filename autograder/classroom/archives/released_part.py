@@ -49,7 +49,11 @@ class Part:
 
 
 def part_of(chapters_folder: Path, wanted: Sequence[str], until: str = "") -> Part:
-    """Return the chapters up to `until` ("": all), and the wanted exercises (none: those of the chapters)."""
+    """Return the chapters up to `until` ("": all), and the wanted exercises (none: those of the chapters).
+
+    Raises:
+        CourseError: there is no such chapter or exercise.
+    """
     chapters = read_contents(chapters_folder)
     released = _up_to(chapters, until) if until else chapters
     names = [name for word in wanted for name in word.split(",") if name]

@@ -91,7 +91,11 @@ class AuditRecord:
 
 
 def read_runs(path: Path) -> list[dict[str, Any]]:
-    """Return the runs in the file of an earlier audit; an empty list if the file does not exist."""
+    """Return the runs in the file of an earlier audit; an empty list if the file does not exist.
+
+    Raises:
+        CourseError: `course audit --json` did not write this file.
+    """
     if not path.exists():
         return []
     try:

@@ -32,6 +32,9 @@ def dask_cluster(address: str) -> Iterator[Cluster]:
 
     If only some workers are isolated, only those grade. Each job checks its worker again, because workers may join
     later.
+
+    Raises:
+        CourseError: `distributed` is not installed, no scheduler responds, or the cluster has no usable worker.
     """
     try:
         from distributed import Client

@@ -16,7 +16,11 @@ LOCK = ".lock"
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Lock the folder, and create it if it is missing; the lock ends with the process, even when it crashes."""
+    """Lock the folder, and create it if it is missing; the lock ends with the process, even when it crashes.
+
+    Raises:
+        CourseError: another process holds the lock.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / LOCK).open("a+", encoding="utf-8") as file:
         try:

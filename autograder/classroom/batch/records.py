@@ -20,7 +20,11 @@ def write_grades(path: Path, grades: Sequence[Grade]) -> None:
 
 
 def read_grades(path: Path) -> list[Grade]:
-    """Read back what `write_grades` wrote; no grades if there is no such file."""
+    """Read back what `write_grades` wrote; no grades if there is no such file.
+
+    Raises:
+        CourseError: the file holds something else.
+    """
     if not path.exists():
         return []
     try:

@@ -11,7 +11,11 @@ from ros_runtime.course_error import CourseError
 
 
 def select(works: Sequence[Work], students: Sequence[str], exercises: Sequence[str]) -> list[Work]:
-    """Return the works of these students for these exercises; an empty sequence selects all."""
+    """Return the works of these students for these exercises; an empty sequence selects all.
+
+    Raises:
+        CourseError: a name has no submission, or these students handed in none of these exercises.
+    """
     for option, wanted, found in (
         ("--student", students, {work.student for work in works}),
         ("--exercise", exercises, {work.exercise for work in works}),

@@ -112,7 +112,12 @@ class Merged:
 
 
 def merge_shards(folders: Sequence[Path]) -> Merged:
-    """Merge the files that `write_shard` wrote into these folders."""
+    """Merge the files that `write_shard` wrote into these folders.
+
+    Raises:
+        CourseError: a folder holds no shard, two folders hold the same submission, or the seeds, versions or isolations
+            of the shards differ.
+    """
     shards = {folder: _read(folder) for folder in folders}
     (first, given), *others = shards.items()
     for folder, record in others:

@@ -77,7 +77,11 @@ class WatchedFolder:
 
 @contextmanager
 def only_watcher(folder: Path) -> Iterator[None]:
-    """Lock the folder as its only watcher; nothing is written into it."""
+    """Lock the folder as its only watcher; nothing is written into it.
+
+    Raises:
+        CourseError: another process watches it.
+    """
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         try:

@@ -29,7 +29,13 @@ from course_cli.ending import batch_status
 
 
 def grade_once(console: Console, request: BatchRequest) -> int:
-    """Grade a batch; return the exit status: 0 if every submission has a grade in the gradebook."""
+    """Grade a batch; return the exit status: 0 if every submission has a grade in the gradebook.
+
+    Raises:
+        CourseError: there is nothing to grade.
+        UnusableExercise: the exercise's author has to correct the exercise.
+        CourseError: as `prepared`.
+    """
     collection = collect(request.submitted)
     works = select(collection.works, request.students, request.exercises)
     is_entered = True

@@ -75,6 +75,10 @@ def prepared(console: Console, request: BatchRequest, works: Sequence[Work]) -> 
     """Lock the output folder, start the workers and print their isolation.
 
     `works` are the submissions of the whole class.
+
+    Raises:
+        CourseError: another process grades into the output folder, students could read the checks on this machine,
+            there is no cluster at the given address, or the stored grades have another seed or cannot be read.
     """
     # without isolation a submission can read every file anyway
     if not request.dask and available_isolation().trusted:

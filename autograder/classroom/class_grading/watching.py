@@ -26,7 +26,14 @@ _SLEEP_TIME = 0.2  # s
 
 
 def watch_and_grade(console: Console, request: BatchRequest) -> int:
-    """Grade until Ctrl-C; return the exit status: 0 if every submission found has a grade in the gradebook."""
+    """Grade until Ctrl-C; return the exit status: 0 if every submission found has a grade in the gradebook.
+
+    Raises:
+        CourseError: the folder does not exist (an empty folder is allowed).
+        CourseError: another process watches the folder.
+        UnusableExercise: the exercise's author has to correct the exercise.
+        CourseError: as `prepared`.
+    """
     if not request.submitted.is_dir():
         raise NoSubmissions(f"{request.submitted} is not a folder; create it first")
     with only_watcher(request.submitted), prepared(console, request, ()) as batch:

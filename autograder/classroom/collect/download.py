@@ -83,7 +83,11 @@ class Download:
 
 @contextmanager
 def open_download(path: Path) -> Iterator[Download]:
-    """Open a zip file or a folder."""
+    """Open a zip file or a folder.
+
+    Raises:
+        CourseError: `path` is neither a zip file nor a folder, or it has too many files.
+    """
     budget = Budget()
     if path.is_dir():
         yield _sorted(_from_folder(path, budget))

@@ -45,7 +45,11 @@ def cell_names(checks: Sequence[Check] | Sequence[CheckVerdict]) -> dict[str, st
 
 
 def with_generated_cells(notebook: NotebookNode, exercise: str) -> NotebookNode:
-    """Return an exercise's notebook with up-to-date cells for its checks or its rubric."""
+    """Return an exercise's notebook with up-to-date cells for its checks or its rubric.
+
+    Raises:
+        UnusableExercise: the notebook of an essay has no cell `rubric`.
+    """
     if exercise in essay_names():
         return with_criterion_cells(notebook, load_essay(exercise))
     return _with_last_section(notebook, VERDICTS, check_cells(load_exercise(exercise, hidden=True)))
@@ -58,7 +62,11 @@ def check_cells(exercise: Exercise) -> list[NotebookNode]:
 
 
 def with_criterion_cells(notebook: NotebookNode, essay: Essay) -> NotebookNode:
-    """Return the notebook with the rubric in the cell `rubric`, and with one cell per criterion as its last section."""
+    """Return the notebook with the rubric in the cell `rubric`, and with one cell per criterion as its last section.
+
+    Raises:
+        UnusableExercise: there is no cell `rubric`.
+    """
     cells = [_rubric_cell(essay) if cell.id == RUBRIC_ID else cell for cell in notebook.cells]
     if RUBRIC_ID not in {cell.id for cell in cells}:
         raise UnusableExercise(

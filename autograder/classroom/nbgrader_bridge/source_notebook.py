@@ -12,7 +12,11 @@ from autograder.engine.exercise import UnusableExercise
 
 
 def read_source(path: Path) -> NotebookNode:
-    """Read a notebook in any version of the format; a cell without a unique id gets one, the same at every reading."""
+    """Read a notebook in any version of the format; a cell without a unique id gets one, the same at every reading.
+
+    Raises:
+        UnusableExercise: the file is not a notebook.
+    """
     try:
         with warnings.catch_warnings():  # nbformat warns about faults that are repaired below
             warnings.simplefilter("ignore")

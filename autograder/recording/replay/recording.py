@@ -86,7 +86,11 @@ class Recording:
 
     @classmethod
     def parsed(cls, file: IO[bytes], path: Path) -> Recording:
-        """Read an open file."""
+        """Read an open file.
+
+        Raises:
+            UnusableRecording: the file is not a recording, is damaged, or was written by another version.
+        """
         try:
             reader = make_reader(file, validate_crcs=True)
             about = _metadata(path, reader.iter_metadata())
@@ -119,7 +123,11 @@ class Recording:
         return min(failed, key=lambda moment: moment.t, default=None)
 
     def verdict(self, check: str) -> Moment:
-        """Return the verdict of a check."""
+        """Return the verdict of a check.
+
+        Raises:
+            UnusableRecording: the check did not judge this run; the message lists the checks that did.
+        """
         verdicts = {moment.check: moment for moment in reversed(self.moments) if moment.check}
         if check in verdicts:
             return verdicts[check]
