@@ -32,6 +32,7 @@ class Body:
         limits: how fast it walks.
         heights: how low it crouches.
         fallen_height: it has fallen if its pelvis is lower (m).
+        still_speed: slower than this (m/s) its pelvis moves from a second after a stop.
         model: compiles the robot in a scene; a function is called with the model before.
         stance_height: height (m) of the pelvis above the floor while it stands.
         take_stance: resets the state to standing with the pelvis at (x, y) m, heading `yaw` rad, and a height (m).
@@ -47,6 +48,7 @@ class Body:
     limits: WalkingLimits
     heights: HeightLimits
     fallen_height: float
+    still_speed: float
     model: Callable[[str, Callable[[Any], object]], MjModel]
     stance_height: Callable[[MjModel], float]
     take_stance: Callable[[MjModel, MjData, float, float, float, float], None]

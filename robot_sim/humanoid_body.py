@@ -37,6 +37,7 @@ HUMANOID = Body(
     limits=WalkingLimits(),
     heights=HeightLimits(),
     fallen_height=0.38,
+    still_speed=0.05,
     model=lambda scene, shape: build_model(scene, shape=shape),
     stance_height=lambda model: dimensions_of(model).stance_height,
     take_stance=_take_stance,

@@ -52,6 +52,7 @@ def g1_body() -> Body:
         limits=WalkingLimits(forward=0.45, backward=0.28, sideways=0.12, turn=0.6),
         heights=HeightLimits(lowest=STANCE_HEIGHT),
         fallen_height=0.5,
+        still_speed=0.12,
         model=model_in,
         stance_height=lambda model: STANCE_HEIGHT,
         take_stance=_take_stance,

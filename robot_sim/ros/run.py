@@ -59,7 +59,7 @@ def run(
     gc.freeze()  # otherwise each garbage collection would scan the present objects, which live until the end
     cycles_since_wait = 0
     if ground_truth:
-        ground_truth.write(RobotReady(fastest=humanoid.body.limits.forward))
+        ground_truth.write(RobotReady(fastest=humanoid.body.limits.forward, still=humanoid.body.still_speed))
     pacing.restart(humanoid.time)
     while is_running():
         if control:

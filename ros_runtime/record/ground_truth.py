@@ -8,9 +8,13 @@ from ros_runtime.record.event import Event
 
 
 class RobotReady(Event):
-    """The robot stands and its topics exist; `fastest` is how fast it can walk, m/s."""
+    """The robot stands and its topics exist.
+
+    `fastest` is how fast it can walk, `still` how fast its pelvis may move a second after its stop, m/s.
+    """
 
     fastest: float = 0.4
+    still: float = 0.05
 
 
 class RobotTruth(Event):

@@ -23,7 +23,6 @@ _FREE_AGAIN = (
 )
 RECENT_TIME = 0.6  # s
 STOP_TIME = 2.0  # s
-STOP_SPEED = 0.05  # m/s
 WATCH_TIME = 3.5  # s after the cancel in which the robot is observed
 STOP = "Publish a zero Twist on cmd_vel before the terminal call, and nothing else on it afterwards."
 
@@ -83,17 +82,27 @@ def require_stopped(
 ) -> None:
     """Require that the robot stands still and upright from 2 s after an event at `since` (s), at most until `until`."""
     watched = run.robot_between(since + STOP_TIME, min(since + WATCH_TIME, until))
-    require_standing(watched, f"within {STOP_TIME:.0f} s of {event}, and still", since, event, STOP)
+    when = f"within {STOP_TIME:.0f} s of {event}, and still"
+    require_standing(watched, when, since, event, STOP, stop_speed(run))
+
+
+def stop_speed(run: RobotRecord) -> float:
+    """Return the speed (m/s) of the pelvis below which the robot of this run stands still."""
+    ready = run.first(ev.RobotReady) or ev.RobotReady(t=0.0)
+    return ready.still
 
 
 def require_standing(
-    watched: Sequence[ev.RobotTruth], when: str, since: float, event: str, help: str
+    watched: Sequence[ev.RobotTruth], when: str, since: float, event: str, help: str, limit: float
 ) -> None:
-    """Require that the robot stands still and upright; the failure contains `when`, and the `event` at `since` (s)."""
+    """Require that the robot stands upright and slower than `limit` (m/s).
+
+    The failure contains `when`, and the `event` at `since` (s).
+    """
     fastest = max(watched, key=lambda robot: robot.speed)
     expect(
-        fastest.speed < STOP_SPEED,
-        expected=f"the robot slower than {STOP_SPEED:.2f} m/s {when} from then on",
+        fastest.speed < limit,
+        expected=f"the robot slower than {limit:.2f} m/s {when} from then on",
         observed=f"{fastest.speed:.2f} m/s {fastest.t - since:.1f} s after {event}",
         help=help,
         at=fastest.t,

@@ -14,7 +14,13 @@ from autograder.authoring.failure import Failure, expect
 from autograder.authoring.walking import life
 from autograder.authoring.walking.motion import require_limited_velocity, require_short_turn
 from autograder.authoring.walking.planar import heading, target
-from autograder.authoring.walking.truth import STOP, STOP_SPEED, STOP_TIME, require_accepted, require_standing
+from autograder.authoring.walking.truth import (
+    STOP,
+    STOP_TIME,
+    require_accepted,
+    require_standing,
+    stop_speed,
+)
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.angles import wrap
 
@@ -95,7 +101,8 @@ def stands_at_success(goal: Goal) -> str | None:
         return None
     require_accepted(goal)
     watched = goal.run.robot_between(since, min(since + STANDING_TIME, end))
-    require_standing(watched, "when the goal SUCCEEDED, and", since, "the result", _SETTLE)
+    when = "when the goal SUCCEEDED, and"
+    require_standing(watched, when, since, "the result", _SETTLE, stop_speed(goal.run))
     return "a goal where it stands" if life.initial_distance(goal) < life.AT_GOAL_DISTANCE else "a walk"
 
 
@@ -145,14 +152,15 @@ def stands_without_a_goal(run: Transcript) -> str | None:
     """Without an active goal the robot stands where it is."""
     if not run.ground_truth or not run.goals:
         return None
+    limit = stop_speed(run)
     for robot in run.ground_truth:
         if robot.mode in (RobotState.FALLEN, RobotState.OFF):
             break
         if robot.t < run.goals[0].sent.t - DELIVERY or _has_goal(run, robot.t, STOP_TIME):
             continue
         expect(
-            robot.speed < STOP_SPEED,
-            expected=f"the robot slower than {STOP_SPEED:.2f} m/s while no goal is active",
+            robot.speed < limit,
+            expected=f"the robot slower than {limit:.2f} m/s while no goal is active",
             observed=f"{robot.speed:.2f} m/s",
             help=STOP,
             at=robot.t,
