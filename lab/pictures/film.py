@@ -60,6 +60,7 @@ def film_of_messages(
     seconds: float,
     *,
     marks: Sequence[Mark],
+    robot: str,
     slow_motion: float,
     camera: str,
     file: str | Path | None,
@@ -82,7 +83,7 @@ def film_of_messages(
     def postures(body: Humanoid) -> Iterator[None]:
         return set_postures(body, np.arange(count) / RATE / slow_motion, odometry, joints, objects)
 
-    return _film(postures, words, lambda: words, camera, file)
+    return _film(postures, words, lambda: words, camera, file, robot)
 
 
 def set_postures(
@@ -121,9 +122,10 @@ def _film(
     caption: Callable[[], str],
     camera: str,
     file: str | Path | None,
+    robot: str = "",
 ) -> HTML:
     """Draw a frame for each posture; `caption` is called after the last frame."""
-    body = body_to_draw()
+    body = body_to_draw(robot)
     try:
         view = View(body, WIDTH, HEIGHT, shadows=False)
     except NoOpenGLError as error:

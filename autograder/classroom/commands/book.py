@@ -12,6 +12,7 @@ from nbformat import NotebookNode
 from rich.console import Console
 
 from autograder.classroom.book.chapter_run import execute as execute_chapter
+from autograder.classroom.book.chapter_run import missing_parts
 from autograder.classroom.book.kept_runs import KeptRuns
 from autograder.classroom.book.site import make_site
 from course_cli.ending import COMMAND_FAILED, error_exit
@@ -52,6 +53,8 @@ def _runs(console: Console) -> dict[str, NotebookNode | None]:
         title = f"{number}/{len(chapters)} {chapter.stem}"
         if kept.of(chapter):
             console.print(f"{title}: unchanged, has the outputs of an earlier run", markup=False)
+        elif why := missing_parts(chapter):
+            console.print(f"{title}: not run, so it has no outputs: {why}", markup=False)
         else:
             seconds = _run(chapter, title, kept, console)
             console.print(f"{title}: ran in {seconds:.0f} s", markup=False)
