@@ -33,7 +33,8 @@ WALKED_LEFT = (-0.13, -0.088, -0.037, 0.022, 0.084, 0.136, 0.176)
 HEADING_GAIN, MOST_TURN, MOST_HEADING_ERROR = 1.5, 0.7, 0.3  # 1/s, rad/s and rad
 LOADED = 20.0  # N on a foot that stands
 SWING_TIME = 0.1  # s; a foot that was in the air for less has not made a step
-SETTLING_TIME = 0.3  # s with both feet on the floor, after which it stands
+# After a walk it stands when both feet have been on the floor, and the pelvis slower than this, for a while.
+STILL, SETTLING_TIME = 0.04, 0.2  # m/s, s
 
 
 class Policy:
@@ -86,12 +87,12 @@ class LearnedWalker(WalkingController):
         self._phases: np.ndarray | None = None  # of the left and right foot while it walks, rad
         self._feet = [FootSensor(model, data, side) for side in SIDES]
         self._in_air = [0.0, 0.0]  # s, of each foot
-        self._settled = SETTLING_TIME
+        self._walks, self._settled = False, 0.0  # s
 
     @property
     def stands(self) -> bool:
-        """Whether it has no command and both feet have stood for a while."""
-        return self._command is None and self._settled >= SETTLING_TIME
+        """Whether it has come to rest after its last command, and has made no step since."""
+        return not self._walks
 
     @property
     def gains(self) -> BalanceGains | None:
@@ -114,6 +115,7 @@ class LearnedWalker(WalkingController):
         if self._command is None:
             self._heading = self._yaw
         self._command = command
+        self._walks = self._walks or command is not None
 
     def tick(self, dt: float) -> None:
         """Set the servos' targets for the next `dt` (s); call it between `mj_step1` and `mj_step2`."""
@@ -165,13 +167,16 @@ class LearnedWalker(WalkingController):
         return float(vx), float(vy), clamp(wz + HEADING_GAIN * error, -MOST_TURN, MOST_TURN)
 
     def _count_steps(self) -> None:
-        self._settled += 1 / RATE
+        swings = False
         for index, foot in enumerate(self._feet):
             is_swing = self._in_air[index] > SWING_TIME
-            if is_swing:
-                self._settled = 0.0
+            swings = swings or is_swing
             if foot.read().force[2] < LOADED:
                 self._in_air[index] += 1 / RATE
             else:
                 self.steps += is_swing
                 self._in_air[index] = 0.0
+        vx, vy = self._data.qvel[:2].tolist()
+        moves = swings or self._command is not None or math.hypot(vx, vy) > STILL
+        self._settled = 0.0 if moves else self._settled + 1 / RATE
+        self._walks = swings or (self._walks and self._settled < SETTLING_TIME)
