@@ -31,21 +31,21 @@ def test_the_same_server_reaches_the_same_goal_with_both_robots(chapter: Execute
     assert in_order(words_of(chapter.html("goal-run")), "humanoid: SUCCEEDED", "g1: SUCCEEDED")
 
 
-def test_a_cancelled_goal_ends_when_the_robot_stands(chapter: Executed) -> None:
+def test_a_cancelled_goal_ends_later_with_the_robot_that_stands_later(chapter: Executed) -> None:
     waits = [numbers(r"([\d.]+) s", line_of(robot, chapter.text("cancel-run"))) for robot in ROBOTS]
     assert [len(each) for each in waits] == [3, 3]
-    assert all(0.1 < wait < 2.0 for wait in (*waits[0], *waits[1]))
+    assert max(waits[0]) < max(waits[1])
     assert in_order(words_of(chapter.html("cancel-run")), "humanoid: CANCELED", "g1: CANCELED")
 
 
-def test_a_pushed_robot_is_off_the_goal_unless_the_server_measures_all_directions(chapter: Executed) -> None:
-    pattern = r"# m to the left"
+def test_a_push_moves_the_arrival_aside_unless_the_server_measures_that_too(chapter: Executed) -> None:
+    pushed, steered = (chapter.text(cell) for cell in ("push-run", "steer-push"))
+    assert abs(number("# m to the left", line_of("g1", pushed))) > 0.2
     for robot in ROBOTS:
-        pushed, steered = (line_of(robot, chapter.text(cell)) for cell in ("push-run", "steer-push"))
-        if not pushed.startswith("ABORTED"):  # the G1 fell in one of 16 such pushes
-            assert abs(number(pattern, pushed)) > 0.0
-        if not steered.startswith("ABORTED"):
-            assert abs(number(pattern, steered)) < 0.12
+        assert line_of(robot, pushed).startswith("SUCCEEDED")
+        assert line_of(robot, steered).startswith("SUCCEEDED")
+        assert abs(number("# m along", line_of(robot, steered))) < 0.12
+        assert abs(number("# m to the left", line_of(robot, steered))) < 0.12
 
 
 def test_the_gap_says_what_is_wrong(gaps: GapTrials, trial: Trial) -> None:
