@@ -60,6 +60,7 @@ def film_of_messages(
     seconds: float,
     *,
     marks: Sequence[Mark],
+    robot: str,
     slow_motion: float,
     camera: str,
     file: str | Path | None,
@@ -82,7 +83,7 @@ def film_of_messages(
     def postures(body: Humanoid) -> Iterator[None]:
         return set_postures(body, np.arange(count) / RATE / slow_motion, odometry, joints, objects)
 
-    return _film(postures, words, lambda: words, camera, file, fitted=True)
+    return _film(postures, words, lambda: words, camera, file, robot, fitted=True)
 
 
 def set_postures(
@@ -121,11 +122,12 @@ def _film(
     caption: Callable[[], str],
     camera: str,
     file: str | Path | None,
+    robot: str = "",
     *,
     fitted: bool = False,
 ) -> HTML:
     """Draw a frame for each posture, `fitted` to all of them; `caption` is called after the last frame."""
-    body = body_to_draw()
+    body = body_to_draw(robot)
     try:
         view = View(body, WIDTH, HEIGHT, shadows=False)
     except NoOpenGLError as error:

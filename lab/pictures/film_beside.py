@@ -91,7 +91,7 @@ class _Walk:
     def frames(self, after: np.ndarray, camera: str) -> list[Image.Image]:
         """Return a picture for each time (s) after the beginning; after the recording's end, repeat the last one."""
         at = np.minimum(self.begin + after, self.recording.seconds)
-        body = body_to_draw()
+        body = body_to_draw(self.recording.robot)
         view = View(body, WIDTH, HEIGHT, shadows=False)
         try:
             postures = set_postures(
@@ -103,12 +103,14 @@ class _Walk:
 
     def capture_point(self, t: float) -> tuple[float, float]:
         """Return the point on the floor above which the pelvis could come to rest, (x, y) in frame odom."""
-        x, y, height, forwards, heading = (
+        x, y, height, forwards, sideways, heading = (
             float(np.interp(t, *self.recording.values(quantity)))
-            for quantity in ("x", "y", "height", "speed", "heading")
+            for quantity in ("x", "y", "height", "speed", "sideways speed", "heading")
         )
-        ahead = forwards * math.sqrt(height / GRAVITY)
-        return x + ahead * math.cos(heading), y + ahead * math.sin(heading)
+        time_constant = math.sqrt(height / GRAVITY)  # s, of the inverted pendulum
+        ahead, aside = forwards * time_constant, sideways * time_constant
+        cos, sin = math.cos(heading), math.sin(heading)
+        return x + cos * ahead - sin * aside, y + sin * ahead + cos * aside
 
     def past_the_goal(self, t: float) -> float:
         """Return how far (m) the pelvis is past the goal, along the line from the start; negative before the goal."""

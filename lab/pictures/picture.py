@@ -56,9 +56,9 @@ def hideable(film: str) -> str:
     return f"<details open><summary>Film</summary>{film}</details>"
 
 
-def body_to_draw() -> Humanoid:
-    """Make a robot like the one that was started, which is only drawn, never simulated."""
-    return Humanoid(topics.scene(), robot=topics.robot())
+def body_to_draw(robot: str = "") -> Humanoid:
+    """Make a robot with this name ("": like the one that was started), which is only drawn, never simulated."""
+    return Humanoid(topics.scene(), robot=robot or topics.robot())
 
 
 @cache

@@ -46,6 +46,7 @@ QUANTITIES = {
     "x": Quantity("odom", "m", 0.1, lambda odometry: odometry.pose.pose.position.x),
     "y": Quantity("odom", "m", 0.1, lambda odometry: odometry.pose.pose.position.y),
     "speed": Quantity("odom", "m/s", 0.2, lambda odometry: odometry.twist.twist.linear.x),
+    "sideways speed": Quantity("odom", "m/s", 0.2, lambda odometry: odometry.twist.twist.linear.y),
     "turn rate": Quantity("odom", "rad/s", 0.2, lambda odometry: odometry.twist.twist.angular.z),
     "height": Quantity("odom", "m", 0.1, lambda odometry: odometry.pose.pose.position.z),
     "heading": Quantity("odom", "rad", 0.2, _heading, is_angle=True),

@@ -41,7 +41,7 @@ def record_robot() -> Iterator[Recording]:
     Raises NoRobotError when no robot is running.
     """
     before = {topic: topics.latest(topic) for topic in topics.TOPICS}
-    recording = Recording()
+    recording = Recording(topics.robot())
     for topic, message in before.items():
         recording.add_message(topic, message)
     with topics.listening(recording.add_message):
@@ -58,9 +58,13 @@ class Recording:
 
     A message has the time of its stamp. A request or answer has the time at which the notebook sent or received it.
     Both use this machine's clock.
+
+    Attributes:
+        robot: the name of the robot that was recorded.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, robot: str = "humanoid") -> None:
+        self.robot = robot
         self._start = time.monotonic()
         self._start_of_stamps = time.time()
         self._seconds: float | None = None
@@ -109,12 +113,12 @@ class Recording:
     def values(self, quantity: str) -> tuple[np.ndarray, np.ndarray]:
         """Return the times of a quantity, in s since the beginning, and its values.
 
-        The quantities are "speed" (m/s, forwards, in base_link), "turn rate" (rad/s, left is positive), "x" and "y" (m,
-        of the pelvis in frame odom), "height" (m, of the pelvis above the floor), "heading" (rad, in frame odom),
-        "pitch" (rad, of the pelvis, forwards is positive), "tilt" (rad, of the pelvis from upright) and "power" (W,
-        drawn from the battery). The scene "table" also has "grip" (N, of the fingers of the right hand) and
-        "cup height" (m, of its centre above the floor). A joint's name, such as "l_elbow", stands for its position
-        (rad; m for a finger).
+        The quantities are "speed" and "sideways speed" (m/s, forwards and to the left, in base_link), "turn rate"
+        (rad/s, left is positive), "x" and "y" (m, of the pelvis in frame odom), "height" (m, of the pelvis above the
+        floor), "heading" (rad, in frame odom), "pitch" (rad, of the pelvis, forwards is positive), "tilt" (rad, of the
+        pelvis from upright) and "power" (W, drawn from the battery). The scene "table" also has "grip" (N, of the
+        fingers of the right hand) and "cup height" (m, of its centre above the floor). A joint's name, such as
+        "l_elbow", stands for its position (rad; m for a finger).
 
         Raises LabError when there is no such quantity, or when no value of it was recorded.
         """
@@ -199,6 +203,7 @@ class Recording:
             {name: self._messages[topics.topic_of(name)] for name in topics.object_poses()},
             self.seconds,
             marks=sorted(self._all_marks),
+            robot=self.robot,
             slow_motion=slow_motion,
             camera=camera,
             file=file,

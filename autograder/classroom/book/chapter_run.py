@@ -17,6 +17,7 @@ from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernel
 from nbformat.v4 import new_code_cell
 
 from lab.learning.gap_cells import fill_gaps
+from robot_sim.body import MissingParts, body_named
 from ros_cli.real_ros2 import path_with_ros2
 from ros_runtime.course_error import CommandFailed
 
@@ -47,6 +48,18 @@ class Executed:
     @cached_property
     def _outputs(self) -> dict[str, list[nbformat.NotebookNode]]:
         return {cell.id: cell.outputs for cell in self.notebook.cells if cell.cell_type == "code"}
+
+
+def missing_parts(chapter: Path) -> str:
+    """Return why a chapter cannot run here: it starts an optional robot that is not installed. "" if it can."""
+    cells = nbformat.read(chapter, as_version=4).cells
+    code = "\n".join(cell.source for cell in cells if cell.cell_type == "code")
+    for robot in re.findall(r'robot="(\w+)"', code):
+        try:
+            body_named(robot)
+        except MissingParts as error:
+            return str(error)
+    return ""
 
 
 def execute(

@@ -13,6 +13,7 @@ from rich.console import Console
 
 from autograder.classroom.book.chapter_run import KeptRuns
 from autograder.classroom.book.chapter_run import execute as execute_chapter
+from autograder.classroom.book.chapter_run import missing_parts
 from autograder.classroom.book.site import make_site
 from ros_runtime.course_error import CommandFailed
 from ros_runtime.project import PROJECT
@@ -50,6 +51,8 @@ def _runs(console: Console) -> dict[str, NotebookNode | None]:
         title = f"{number}/{len(chapters)} {chapter.stem}"
         if kept.of(chapter):
             console.print(f"{title}: unchanged, has the outputs of an earlier run", markup=False)
+        elif why := missing_parts(chapter):
+            console.print(f"{title}: not run, so it has no outputs: {why}", markup=False)
         else:
             seconds = _run(chapter, title, kept, console)
             console.print(f"{title}: ran in {seconds:.0f} s", markup=False)

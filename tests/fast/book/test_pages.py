@@ -8,11 +8,14 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-from autograder.classroom.book.chapter_run import KeptRuns, answered
+from autograder.classroom.book import chapter_run
+from autograder.classroom.book.chapter_run import KeptRuns, answered, missing_parts
 from autograder.classroom.book.links import Links
 from autograder.classroom.book.reader_copy import HIDDEN_INPUT, reader_copy
 from autograder.classroom.book.still_widgets import STATE, VIEW, VIEW_CAPTION, still
 from lab.learning.question import read_question
+from robot_sim.body import MissingParts
+from ros_runtime.project import PROJECT
 
 PAGES = {PurePosixPath(page) for page in ("docs/glossary.md", "docs/robot.md", "chapters/01_a.ipynb")}
 LINKS = Links(PurePosixPath("docs/glossary.md"), PAGES)
@@ -154,3 +157,16 @@ def test_a_run_is_kept_until_the_chapter_or_what_it_runs_changes(tmp_path: Path)
 
     nbformat.write(chapter(new_code_cell("2", id="two")), file)
     assert kept().of(file) is None
+
+
+def test_only_the_chapter_that_starts_the_optional_robot_needs_its_parts(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def without_parts(robot: str) -> None:
+        raise MissingParts(f"{robot} needs a package")
+
+    monkeypatch.setattr(chapter_run, "body_named", without_parts)
+    chapters = sorted((PROJECT / "chapters").glob("*.ipynb"))
+    assert {path.stem: why for path in chapters if (why := missing_parts(path))} == {
+        "13_two_walkers": "g1 needs a package"
+    }

@@ -10,8 +10,10 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from execution import Executed, execute
+from execution import CHAPTERS, Executed, execute
 from gap_trials import GapTrials, trials_of
+
+from autograder.classroom.book.chapter_run import missing_parts
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
@@ -28,6 +30,8 @@ def executed(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Execut
         shared = shared.parent
 
     def run_once(name: str) -> Executed:
+        if why := missing_parts(CHAPTERS / f"{name}.ipynb"):
+            pytest.skip(why)
         done = shared / f"{name}.executed"
         with (shared / f"{name}.lock").open("w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
