@@ -92,6 +92,8 @@ class Group:
 def groups(folder: Path, now: float) -> list[Group]:
     """Read all entries of a class, and delete old ones; groups in which students wait longest come first.
 
+    Of groups that wait equally long, the one with more students comes first.
+
     Students write the entries, so anything that is not an entry is ignored.
     """
     found: dict[tuple[str, str], list[Shared]] = {}
@@ -105,7 +107,11 @@ def groups(folder: Path, now: float) -> list[Group]:
         theirs.sort(key=lambda one: one.since)
         minutes = [max(0, int((now - one.since) // 60)) for one in theirs]
         made.append(Group(exercise, check, minutes, [one.place for one in theirs if one.place]))
-    return sorted(made, key=lambda group: (not group.check, -group.minutes[0], group.exercise, group.check))
+    return sorted(made, key=_urgency)
+
+
+def _urgency(group: Group) -> tuple[bool, int, int, str, str]:
+    return not group.check, -group.minutes[0], -len(group.minutes), group.exercise, group.check
 
 
 def _entries(folder: Path) -> Iterator[tuple[Path, Shared]]:

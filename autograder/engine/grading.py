@@ -261,7 +261,12 @@ class _Session:
             self._conclude(verdict_on(check, "error", help=f"Not graded: {error}"))
             return
         attempt = max(self._attempts[check.id, scenario] for scenario in check.on)
-        verdict = judge(check, transcripts, is_last_attempt=attempt + 1 >= MOST_ATTEMPTS["error"])
+        verdict = judge(
+            check,
+            transcripts,
+            is_last_attempt=attempt + 1 >= MOST_ATTEMPTS["error"],
+            others_failed=any(other.status == "failed" for other in self._verdicts.values()),
+        )
         no_retry = verdict.status == "failed" and check.id in self._options.checks_without_retry
         if verdict.status != "passed" and not no_retry:
             again = failed_scenarios(check, transcripts)

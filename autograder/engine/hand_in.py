@@ -238,9 +238,8 @@ def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
             return f"lies deeper than {chosen.path}"
         if one.changed <= newest - TIME_TOLERANCE:
             return f"is older than {chosen.path}"
-        return f"comes after {chosen.path}" + (
-            ", the notebook" if chosen.is_notebook > one.is_notebook else ""
-        )
+        first = "a notebook" if chosen.is_notebook > one.is_notebook else "that name"
+        return f"is as new as {chosen.path}, and {first} counts first"
 
     others = sorted(
         (one for one in candidates if one is not chosen and not _same(one.sources, chosen.sources)),

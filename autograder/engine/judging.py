@@ -20,11 +20,18 @@ from autograder.engine.verdict import CheckStatus, CheckVerdict
 LOG_LINES = 40
 
 
-def judge(check: Check, transcripts: Sequence[Transcript], *, is_last_attempt: bool = False) -> CheckVerdict:
+def judge(
+    check: Check,
+    transcripts: Sequence[Transcript],
+    *,
+    is_last_attempt: bool = False,
+    others_failed: bool = False,
+) -> CheckVerdict:
     """Judge a check on one transcript of each of its scenarios.
 
     The verdict is 'passed', 'failed' or 'error'. It is an error if the arena or the check itself failed, or if the
-    program gave no answer that the check could judge. The last of these is a failure if `is_last_attempt`.
+    program gave no answer that the check could judge. The last of these is a failure if `is_last_attempt`; its advice
+    is to begin with the other checks if `others_failed`.
     """
     log = "\n".join(_log(transcript) for transcript in transcripts)
     try:
@@ -44,12 +51,17 @@ def judge(check: Check, transcripts: Sequence[Transcript], *, is_last_attempt: b
         )
     except NoOccasion as requirement:
         if is_last_attempt:
+            first = (
+                "Fix what the other checks report first"
+                if others_failed
+                else "Find out what your program did instead, from what it printed"
+            )
             return verdict_on(
                 check,
                 "failed",
                 expected=f"an answer from which this can be judged: {requirement}",
                 observed=requirement.instead or "none of its answers allows that",
-                help="Fix what the other checks report first: without such an answer this check cannot pass.",
+                help=f"{first}: without such an answer this check cannot pass.",
                 log=log,
             )
         return verdict_on(check, "error", help=f"Not graded: nothing showed whether {requirement}", log=log)

@@ -9,6 +9,7 @@ The command is trusted; what it starts with `student_process` is not.
 
 from __future__ import annotations
 
+import signal
 import threading
 import time
 from concurrent.futures import Future
@@ -28,6 +29,7 @@ __all__ = ["ArenaProcess", "ArenaReport", "ArenaSpec", "Ended", "Kind"]
 _POLL = 0.05  # s between two checks of the deadline and of `kill`
 _MEMORY_PERIOD = 0.2  # s between two measurements of memory, each of which reads a dozen files per process
 _LAST_WORDS = 2.0  # s to read the remaining output of an ended arena, if a process still holds it open
+_AFTER_SIGKILL = ", most often because the machine's memory ran out: grade again with --jobs 1"
 
 
 class Ended(str, Enum):
@@ -66,6 +68,12 @@ class ArenaReport:
             )
         if self.ended is Ended.KILLED:
             return "the arena was ended on request"
+        number = self.exit_code - 128
+        if number in set(signal.Signals):
+            advice = _AFTER_SIGKILL if number == signal.SIGKILL else ""
+            return (
+                f"the arena's command was killed by signal {number} ({signal.Signals(number).name}){advice}"
+            )
         return f"the arena's command ended with status {self.exit_code}"
 
 

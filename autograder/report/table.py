@@ -146,7 +146,7 @@ def progress_line(grade: Grade, *, cached: bool = False) -> Text:
     """Return the line to print when one submission is graded."""
     colours = {"not graded": "magenta", "to mark": MARKS["to mark"][1]}
     colour = colours.get(grade.status, "green" if grade.all_passed else "yellow")
-    note = "  (as before)" if cached else ""
+    note = "  (the same program was graded before)" if cached else ""
     return Text.assemble(
         (f"{grade.student} · {grade.exercise}  ", ""), (summary(grade).splitlines()[0], colour), (note, "dim")
     )

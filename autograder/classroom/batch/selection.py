@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeVar
 
 from autograder.classroom.batch.collection import Work
 from autograder.classroom.batch.seeds import Seeds
 from autograder.engine.verdict import Grade
 from ros_runtime.course_error import CourseError
 
+One = TypeVar("One", Work, Grade)
 
-def select(works: Sequence[Work], students: Sequence[str], exercises: Sequence[str]) -> list[Work]:
-    """Return the works of these students for these exercises; an empty sequence selects all.
+
+def select(works: Sequence[One], students: Sequence[str], exercises: Sequence[str]) -> list[One]:
+    """Return the works or grades of these students for these exercises; an empty sequence selects all.
 
     Raises:
         CourseError: a name has no submission, or these students handed in none of these exercises.

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from pathlib import PurePath
 
 from autograder.classroom.batch.collection import files_of_exercises
 from autograder.classroom.collect.handed_in import Assignment, HandedIn
 from autograder.engine.hand_in import Candidate, Names, choose_work, merged
 
+PROGRAMS = (".ipynb", ".py")
 ARCHIVES = (".zip", ".gz", ".tgz", ".bz2", ".xz", ".tar", ".7z", ".rar")
 
 
@@ -36,7 +38,12 @@ def choose(files: Sequence[HandedIn], assignment: Assignment) -> Choice:
                 f"this archive into the same folder ({one.student})"
             )
         elif not named:
-            choice.left_aside.append(f"{one.file.path} is not named like an exercise's file ({one.student})")
+            kinds = (
+                [".ipynb", *dict.fromkeys(PurePath(name).suffix for name in names.files[only])]
+                if only
+                else PROGRAMS
+            )
+            choice.left_aside.append(f"{one.file.path} {_why_no_work(one.name, kinds)} ({one.student})")
         elif only and named.exercise != only:
             choice.left_aside.append(
                 f"{one.file.path} is for {named.exercise}, not for {only} ({one.student})"
@@ -61,3 +68,10 @@ def choose(files: Sequence[HandedIn], assignment: Assignment) -> Choice:
         choice.works[key], others = choose_work(merged(candidates))
         choice.left_aside += [f"{line} ({key[0]})" for line in others]
     return choice
+
+
+def _why_no_work(name: str, kinds: Sequence[str]) -> str:
+    """Return why a file belongs to no exercise, as the end of a sentence; `kinds` are the endings of programs."""
+    if PurePath(name).suffix.lower() in kinds:
+        return "is not named like an exercise's file"
+    return f"is no notebook or program ({', '.join(kinds)})"

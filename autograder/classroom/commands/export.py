@@ -5,17 +5,20 @@ from __future__ import annotations
 import os
 from dataclasses import replace
 from enum import Enum
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 from rich.console import Console
 
+from autograder.classroom.batch.selection import select
 from autograder.classroom.export.formats import FORMATS, Export, LeftOut, read_batch
 from autograder.classroom.export.formats import export as make_export
 from autograder.classroom.export.published import Options, UnusableBatch
 from autograder.classroom.pages.history import FILE as HISTORY
 from autograder.classroom.pages.history import HIDDEN, history_text, read_history, with_day
+from autograder.classroom.pages.pages import page_to_send
 from ros_runtime.course_error import COMMAND_FAILED, CommandFailed
 
 Format = Enum("Format", {name: name for name in FORMATS}, type=str)  # type: ignore[misc]
@@ -55,6 +58,12 @@ def export(
             "and useremail or useridnumber, or an assignment's grading worksheet",
         ),
     ] = None,
+    exercise: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--exercise", help="export only this exercise (can be repeated); files of other exercises stay"
+        ),
+    ] = None,
     assignment: Annotated[
         list[str] | None,
         typer.Option(
@@ -67,7 +76,9 @@ def export(
 ) -> None:
     """Write the grades of a batch for another platform; "not graded" never becomes a zero."""
     console = Console(highlight=False)
-    grades, graded_at = read_batch(source)
+    found, graded_at = read_batch(source)
+    grades = select(found, (), exercise or ())
+    graded = source if source.is_dir() else source.parent
     options = Options(
         graded_at,
         hidden.value,
@@ -76,12 +87,17 @@ def export(
         classroom,
         # In a job that Classroom 50 runs, these variables identify the submission.
         {name: value for name, value in os.environ.items() if len(grades) == 1 or name == "CLASSROOM"},
+        partial(page_to_send, graded),
     )
-    graded = source if source.is_dir() else source.parent
     made = make_export(format_.value, grades, options)
     if format_.value == "csv":
         days = with_day(read_history(graded), graded_at.date().isoformat(), grades)
-        text = history_text(row for row in days if hidden is Hidden.show or row.visibility != HIDDEN)
+        text = history_text(
+            row
+            for row in days
+            if (hidden is Hidden.show or row.visibility != HIDDEN)
+            and (not exercise or row.exercise in exercise)
+        )
         made = replace(made, files={**made.files, HISTORY: text}, places=[*made.places, HISTORY])
     folder = out or graded / "exports" / format_.value
     try:

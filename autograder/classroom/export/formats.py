@@ -47,7 +47,7 @@ class Export:
     of unintended effects on the platform.
     """
 
-    files: Mapping[str, str]
+    files: Mapping[str, str | bytes]
     left_out: Sequence[LeftOut]
     places: Sequence[str]
     notes: Sequence[str] = ()
@@ -57,8 +57,8 @@ class Export:
         for name in self.places:
             if name not in self.files:
                 (out / name).unlink(missing_ok=True)
-        for name, text in self.files.items():
-            write_atomically(out / name, text)
+        for name, content in self.files.items():
+            write_atomically(out / name, content)
 
 
 def export(name: str, grades: Sequence[Grade], options: Options) -> Export:
@@ -77,7 +77,10 @@ def export(name: str, grades: Sequence[Grade], options: Options) -> Export:
     if name == "csv":
         rows = [grades_csv.row_of(published) for published in scored]
         return Export({grades_csv.FILE: grades_csv.table_text(rows)}, without, [grades_csv.FILE])
-    places = [_table_file(exercise) for exercise in sorted({grade.exercise for grade in grades})]
+    exercises = sorted({grade.exercise for grade in grades})
+    places = [
+        name for exercise in exercises for name in (_table_file(exercise), moodle.feedback_file(exercise))
+    ]
     files, unknown, notes = _tables(PER_EXERCISE[name], scored, options)
     return Export(files, [*without, *unknown], places, notes)
 
@@ -104,21 +107,23 @@ def _place(writer: Any, grade: Grade) -> str:
 
 def _tables(
     platform: Any, scored: Sequence[Published], options: Options
-) -> tuple[dict[str, str], list[LeftOut], list[str]]:
-    """Make a table for each exercise; return them, the submissions that are not in them, and notes."""
-    files: dict[str, str] = {}
+) -> tuple[dict[str, str | bytes], list[LeftOut], list[str]]:
+    """Make each exercise's table, and Moodle's feedback files; return them, the submissions left out, and notes."""
+    files: dict[str, str | bytes] = {}
     left_out: list[LeftOut] = []
     class_list = platform.open_class(options, scored)
     in_order = sorted(scored, key=lambda published: (published.exercise, published.student))
     for exercise, group in groupby(in_order, key=lambda published: published.exercise):
-        rows = []
+        rows = {}  # by student
         for published in group:
             try:
-                rows.append(class_list.cells(published))
+                rows[published.student] = class_list.cells(published)
             except CannotExpress as error:
                 left_out.append(LeftOut(published.student, exercise, str(error), True))
         if rows:
-            files[_table_file(exercise)] = class_list.text(exercise, published.max_score, rows)
+            files[_table_file(exercise)] = class_list.text(exercise, published.max_score, list(rows.values()))
+        if platform is moodle and (archive := class_list.feedback_zip(exercise, rows)):
+            files[moodle.feedback_file(exercise)] = archive
     return files, left_out, class_list.notes(options)
 
 

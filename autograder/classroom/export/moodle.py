@@ -4,14 +4,18 @@ Formats: https://docs.moodle.org, "Grade import" (mapped by useremail or useridn
 worksheet mod/assign/gradingtable.php and mod/assign/feedback/offline/importgradeslib.php of
 https://github.com/moodle/moodle. The worksheet's headings are in the user's language, and Moodle imports them in that
 language only; the order of the columns is the same in all languages. Moodle shows feedback as HTML, so it is escaped.
+For “Upload multiple feedback files in a zip” see mod/assign/feedback/file/importziplib.php: a file's name begins with
+a name, the participant's number in the worksheet, and the plugin that a download names, separated by underscores.
 """
 
 from __future__ import annotations
 
 import html
+import io
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+import zipfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 from autograder.classroom.export.published import Options, Published, UnusableBatch, printable
 from autograder.classroom.export.tables import Table, csv_text, key_cell, read_number, read_table, text_cell
@@ -36,11 +40,15 @@ class Worksheet:
 
 @dataclass(frozen=True)
 class ClassList:
-    """Identifies students: `key` is the column of Moodle's gradebook import; a worksheet is filled in instead."""
+    """Identifies students: `key` is the column of Moodle's gradebook import; a worksheet is filled in instead.
+
+    `pages` are the students' pages to give back with a worksheet, by student; "" if there is none.
+    """
 
     key: str
     roster: Table | None = None
     worksheet: Worksheet | None = None
+    pages: Mapping[str, str] = field(default_factory=dict)
 
     def cells(self, published: Published) -> list[str | float]:
         """Return the row of a submission.
@@ -75,6 +83,20 @@ class ClassList:
             return csv_text(self.roster.heading, rows)
         return csv_text([self.key, exercise, f"{exercise} feedback"], rows)
 
+    def feedback_zip(self, exercise: str, rows: Mapping[str, Sequence[str | float]]) -> bytes:
+        """Return a zip file with the pages of the students who have a row in the worksheet; b"" without any page."""
+        file = io.BytesIO()
+        with zipfile.ZipFile(file, "w") as archive:
+            for student, row in rows.items():
+                participant = _PARTICIPANT.fullmatch(str(row[0]))
+                if participant and self.pages.get(student):
+                    number = participant["number"]
+                    name = student.removesuffix(f"-{number}").replace("_", "-")
+                    entry = zipfile.ZipInfo(f"{name}_{number}_assignsubmission_file_{exercise}.html")
+                    archive.writestr(entry, self.pages[student], zipfile.ZIP_DEFLATED)
+            is_empty = not archive.namelist()
+        return b"" if is_empty else file.getvalue()
+
     def _row_of(self, student: str) -> Sequence[str]:
         """Return a student's row of the roster; raises `CannotExpress` if there is none."""
         assert self.roster
@@ -96,6 +118,13 @@ class ClassList:
     def notes(self, options: Options) -> list[str]:
         """Return sentences on data that Moodle may not receive."""
         found = self.roster.notes(options.roster) if self.roster else []
+        if not self.worksheet:
+            found.append(
+                "no zip of feedback files: only the assignment's grading worksheet has the numbers by which Moodle "
+                "finds the student of such a file; give it as --roster"
+            )
+        if missing := [student for student, page in self.pages.items() if not page]:
+            found.append(f"no feedback file, because the grades' folder has no page: {', '.join(missing)}")
         if self.worksheet and self.worksheet.feedback is None:
             found.append(
                 f"{options.roster} has no column for feedback: “Feedback comments” is off in the assignment's settings"
@@ -107,12 +136,20 @@ def open_class(options: Options, scored: Sequence[Published]) -> ClassList:
     """Read the roster, or choose by the folders' names whether e-mail addresses or id numbers identify students.
 
     Raises:
-        UnusableBatch: the roster has no column that Moodle can import, or only some folders' names are addresses.
+        UnusableBatch: the roster has no column that Moodle can import, or is a worksheet and the grades are for
+            several exercises, or only some folders' names are addresses.
     """
     if options.roster:
         roster = read_table(options.roster)
         if worksheet := _worksheet(roster):
-            return ClassList("", roster, worksheet)
+            exercises = sorted({published.exercise for published in scored})
+            if len(exercises) > 1:
+                raise UnusableBatch(
+                    f"{options.roster} is the worksheet of one assignment, but there are grades for "
+                    f"{', '.join(exercises)}: choose one with --exercise NAME"
+                )
+            pages = {one.student: options.page_of(one.student, one.exercise) for one in scored}
+            return ClassList("", roster, worksheet, pages)
         email, id_number = roster.index(*EMAIL), roster.index(*ID_NUMBER)
         if (email is None and id_number is None) or _has_participants(roster):
             raise UnusableBatch(
@@ -163,6 +200,11 @@ def _are_grades(grades: Sequence[str], most: Sequence[str]) -> bool:
         return False
     given = [read_number(cell) for cell in grades if cell]
     return all(grade is not None and grade <= highest for grade in given)
+
+
+def feedback_file(exercise: str) -> str:
+    """Return the name of the zip file with the students' pages."""
+    return f"{exercise}_feedback.zip"
 
 
 def feedback(published: Published) -> str:

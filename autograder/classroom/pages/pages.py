@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -27,6 +28,7 @@ CLASS_PAGE = "class.html"
 INDEX = "index.html"  # the page that lists a student's exercises
 FOR_STUDENTS, FOR_INSTRUCTOR = "pages", "instructor"
 MAX_LESSONS = 10  # listed on the class page
+_TO_INDEX = re.compile(rf'\s*<a href="{re.escape(INDEX)}">[^<]*</a>\.')
 UP = "../.."  # from a submission's page to the folder of the class page
 
 
@@ -111,6 +113,14 @@ def write_submission_pages(folder: Path, grade: Grade, drawings: DrawnRuns) -> N
     visible = {check.id for check in grade.checks if not check.hidden}
     seen = {check: svgs for check, svgs in drawings.items() if check in visible}
     _write(folder, student_view(grade), seen, for_student=True)
+
+
+def page_to_send(folder: Path, student: str, exercise: str) -> str:
+    """Return a student's page in a batch's folder, without its link to the other pages; "" if there is none."""
+    path = folder / FOR_STUDENTS / student / f"{exercise}.html"
+    if not path.is_file():
+        return ""
+    return _TO_INDEX.sub("", path.read_text(encoding="utf-8"))
 
 
 def _write(folder: Path, grade: Grade, drawings: DrawnRuns, *, for_student: bool) -> None:

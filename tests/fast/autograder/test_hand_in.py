@@ -151,6 +151,20 @@ def test_files_with_the_same_time_are_ordered_by_their_names(tmp_path: Path) -> 
         (tmp_path / "anna" / name).unlink()
 
 
+def test_why_a_file_of_the_same_time_does_not_count_is_no_order_in_time(tmp_path: Path) -> None:
+    for place in (
+        f"anna/{NAME}.ipynb",
+        (f"anna/{FIRST}", OTHER),
+        f"bert/{FIRST}",
+        (f"bert/{NAME}-Copy1.py", OTHER),
+    ):
+        put(tmp_path, place)
+    assert [line for work in collect(tmp_path).works for line in work.left_aside] == [
+        f"anna: {FIRST} is as new as {NAME}.ipynb, and a notebook counts first",
+        f"bert: {NAME}-Copy1.py is as new as {FIRST}, and that name counts first",
+    ]
+
+
 def test_an_unchanged_starter_is_the_submission_if_there_is_no_other(tmp_path: Path) -> None:
     put(tmp_path, (f"anna/{NAME}/{NAME}.ipynb", STARTER.read_text()))
     (work,) = collect(tmp_path).works

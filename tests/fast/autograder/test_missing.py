@@ -242,4 +242,7 @@ def test_missing_evidence_that_depends_only_on_the_submission_costs_points_in_th
         "failed",
         "an answer from which this can be judged: the robot comes near the goal",
     )
+    assert "other checks" not in verdict.help
+    after_others = judge(check, [quiet], is_last_attempt=True, others_failed=True)
+    assert after_others.help.startswith("Fix what the other checks report first: ")
     assert isinstance(not_shown(transcript(RAISED, EXITED), "the robot comes near"), Failure)

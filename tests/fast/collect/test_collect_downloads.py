@@ -121,7 +121,7 @@ def test_a_folder_around_all_submissions_is_not_a_student(tmp_path: Path, platfo
         (
             "canvas",
             [
-                "question.html is not named like an exercise",
+                "question.html is no notebook or program (.ipynb, .py)",
                 "was handed in again as",
                 "late, according to the platform: oneil",
                 "no submission from: kimcleo-103; --exercise NAME accepts a file of any name",
@@ -137,7 +137,10 @@ def test_a_folder_around_all_submissions_is_not_a_student(tmp_path: Path, platfo
         ),
         (
             "classroom50",
-            ["README.md is not named like an exercise", "walk_to.py is for walk_to, not for battery_service"],
+            [
+                "README.md is no notebook or program (.ipynb, .py)",
+                "walk_to.py is for walk_to, not for battery_service",
+            ],
         ),
     ],
 )
@@ -176,7 +179,7 @@ def test_a_file_of_any_name_counts_where_the_exercise_is_given(tmp_path: Path) -
     )
     assert programs(tmp_path / "s") == {"leeanna-1": PROGRAM}
     assert "walk_to.py is for walk_to, not for battery_service" in said(done)
-    assert "notes.txt is not named like an exercise" in said(done)
+    assert "notes.txt is no notebook or program (.ipynb, .py)" in said(done)
     assert "hw.zip is an archive, and archives are not opened: unpack the download" in said(done)
     assert "no submission from: bo-3, jo-4, kim-2 leeanna-1 · battery_service fingerprint " in said(done)
 

@@ -23,6 +23,12 @@ OPTIONS = Options(GRADED_AT, classroom="robotics")
 HOSTILE = '=HYPERLINK("http://evil")\x00\x1b[31m<script>alert(1)</script> ]]> \ud800 “Grüße” 机器人\n+1'
 
 
+WORKSHEET = """Identifier,Full name,Email address,Status,Grade,Maximum grade,Last modified (grade),Feedback comments
+Participant 9001,Anna Lee,anna@x.org,Submitted,,5.00,-,
+Participant 9002,Bert O'Neil,bert@x.org,Submitted,,5.00,-,
+"""
+
+
 def visible(status: str = "passed", **more: object) -> CheckVerdict:
     points = 3 if status == "passed" else 0
     verdict = CheckVerdict("answers", "The server answers in time", status, points, 3)  # type: ignore[arg-type]
@@ -65,6 +71,7 @@ BERT = grade(
 CLEO = grade("cleo", visible("error"), hidden("error"), reason="secret_id: a secret title broke")
 DORA = grade("dora", CheckVerdict("graph", "A clear graph", "marked", 2.5, 4), exercise="arm_architecture")
 EMIL = grade("emil", CheckVerdict("graph", "A clear graph", "to mark", 0, 4), exercise="arm_architecture")
+SAME = grade("bert", visible("failed"), *ANNA.checks[1:])  # of as many points as Anna's
 CLASS = [ANNA, BERT, CLEO, DORA, EMIL]
 
 

@@ -8,7 +8,18 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from graded_class import ANNA, BERT, CLASS, CLEO, DORA, HOSTILE, OPTIONS, SECRETS, grade, visible
+from graded_class import (
+    ANNA,
+    BERT,
+    CLASS,
+    CLEO,
+    DORA,
+    HOSTILE,
+    OPTIONS,
+    SAME,
+    SECRETS,
+    WORKSHEET,
+)
 
 from autograder.classroom.export.formats import Export, export
 from autograder.classroom.export.published import UnusableBatch
@@ -21,12 +32,7 @@ CANVAS = """Student,ID,SIS User ID,SIS Login ID,Section,battery_service (4711),O
 "=cmd|' /C calc'!A0",102,s2,bert,B,,
 "Kim, Cleo",103,s3,cleo,B,,
 """
-WORKSHEET = """Identifier,Full name,Email address,Status,Grade,Maximum grade,Last modified (grade),Feedback comments
-Participant 9001,Anna Lee,anna@x.org,Submitted,,5.00,-,
-Participant 9002,Bert O'Neil,bert@x.org,Submitted,,5.00,-,
-"""
 CANVAS_OPTIONS = replace(OPTIONS, assignments={"battery_service": "4711", "arm_architecture": "4712"})
-SAME = grade("bert", visible("failed"), *ANNA.checks[1:])  # of as many points as Anna's
 
 
 def rows(text: str) -> list[list[str]]:

@@ -5,14 +5,18 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
+import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from graded_class import ANNA, BERT, CLEO, DORA, SECRETS, grade, graded_folder, visible
+from graded_class import ANNA, BERT, CLEO, DORA, SAME, SECRETS, WORKSHEET, grade, graded_folder, visible
 from typer.testing import CliRunner, Result
 
 from autograder.classroom.export.formats import FORMATS
 from autograder.classroom.pages.history import with_day, write_history
+from autograder.classroom.pages.pages import write_submission_pages
 from course_cli.app import app
 
 
@@ -90,6 +94,64 @@ def test_the_file_of_a_self_check_is_exported_too(tmp_path: Path) -> None:
     done = course("--format", "gradescope", "--from", path, "--out", tmp_path / "out")
     assert done.exit_code == 0
     assert "score" not in json.loads((tmp_path / "out/cleo/battery_service/results.json").read_text())
+
+
+def test_only_the_named_exercise_is_exported_and_the_files_of_others_stay(tmp_path: Path) -> None:
+    graded = graded_folder(tmp_path / "graded", ANNA, DORA)
+    assert course("--format", "moodle", "--from", graded).exit_code == 0
+    (graded / "exports/moodle/arm_architecture.csv").write_text("as it was")
+    done = course("--format", "moodle", "--from", graded, "--exercise", "battery_service")
+    assert done.exit_code == 0
+    assert (graded / "exports/moodle/arm_architecture.csv").read_text() == "as it was"
+    assert "1 file in" in done.output
+    course("--format", "csv", "--from", graded, "--exercise", "battery_service")
+    assert "arm_architecture" not in (graded / "exports/csv/grades.csv").read_text()
+    unknown = course("--format", "csv", "--from", graded, "--exercise", "walk_to")
+    assert unknown.exit_code == 2
+    assert "arm_architecture, battery_service" in unknown.output
+
+
+def test_moodles_worksheet_goes_back_with_the_students_pages(tmp_path: Path) -> None:
+    """Moodle finds a feedback file's student by the number between the first two underscores of its name."""
+    students = ["Anna_Lee-9001", "bert@x.org"]
+    grades = [replace(one, student=name) for one, name in zip((ANNA, SAME), students, strict=True)]
+    graded = graded_folder(tmp_path / "graded", *grades, replace(DORA, student=students[0]))
+    for one in grades:
+        write_submission_pages(graded, one, {})
+    (tmp_path / "worksheet.csv").write_text(WORKSHEET.replace("Anna Lee", "Anna_Lee"))
+    told = ("--format", "moodle", "--from", graded, "--roster", tmp_path / "worksheet.csv")
+    refused = course(*told)
+    assert refused.exit_code == 2
+    assert "choose one with --exercise NAME" in " ".join(refused.output.replace("│", " ").split())
+
+    done = course(*told, "--exercise", "battery_service")
+    assert done.exit_code == 0, done.output
+    with zipfile.ZipFile(graded / "exports/moodle/battery_service_feedback.zip") as archive:
+        pages = {name: archive.read(name).decode() for name in archive.namelist()}
+    assert list(pages) == [
+        "Anna-Lee_9001_assignsubmission_file_battery_service.html",
+        "bert@x.org_9002_assignsubmission_file_battery_service.html",
+    ]
+    for page in pages.values():
+        assert "The server answers in time" in page
+        assert set(re.findall(r'(?:href|src)="(.)', page)) <= {"#"}, "it needs no other file"
+        assert not [word for word in SECRETS if word in page]
+    again = course(*told, "--exercise", "battery_service", "--out", tmp_path / "again")
+    assert again.exit_code == 0
+    zips = [
+        folder / "battery_service_feedback.zip" for folder in (graded / "exports/moodle", tmp_path / "again")
+    ]
+    assert zips[0].read_bytes() == zips[1].read_bytes()
+
+
+def test_without_a_worksheet_or_pages_it_says_why_moodle_gets_no_feedback_files(tmp_path: Path) -> None:
+    graded = graded_folder(tmp_path / "graded", replace(ANNA, student="Anna Lee-9001"))
+    said = course("--format", "moodle", "--from", graded).output
+    assert "no zip of feedback files" in said
+    (tmp_path / "worksheet.csv").write_text(WORKSHEET)
+    done = course("--format", "moodle", "--from", graded, "--roster", tmp_path / "worksheet.csv")
+    assert "the grades' folder has no page: Anna Lee-9001" in " ".join(done.output.split())
+    assert files(graded / "exports/moodle") == ["battery_service.csv"]
 
 
 @pytest.mark.parametrize(

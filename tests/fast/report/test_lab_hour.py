@@ -75,6 +75,16 @@ def test_waiting_is_counted_from_the_first_share_of_the_same_check(
     assert (group.check, group.minutes) == ("Check <1>", [2])
 
 
+def test_of_groups_that_wait_equally_long_the_larger_comes_first(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(lab_hour.time, "time", lambda: 1000.0)
+    for name, exercise in (("anna", "battery_guard"), ("bert", "walk_to"), ("carl", "walk_to")):
+        at_the_desk_of(name, monkeypatch)
+        checked("failed", exercise=exercise).share()
+    assert [group.exercise for group in lab_hour.groups(folder, 1720.0)] == ["walk_to", "battery_guard"]
+
+
 def test_what_is_shared_goes_at_once_and_after_a_session(folder: Path) -> None:
     checked("failed").share()
     checked("failed").unshare()
