@@ -11,9 +11,8 @@ import typer
 from nbformat import NotebookNode
 from rich.console import Console
 
-from autograder.classroom.book.chapter_run import KeptRuns
+from autograder.classroom.book.chapter_run import KeptRuns, missing_parts
 from autograder.classroom.book.chapter_run import execute as execute_chapter
-from autograder.classroom.book.chapter_run import missing_parts
 from autograder.classroom.book.site import make_site
 from ros_runtime.course_error import CommandFailed
 from ros_runtime.project import PROJECT
