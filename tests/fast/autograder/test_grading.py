@@ -9,7 +9,7 @@ import pytest
 from autograder.authoring.checks import Scenario, check
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.authoring.failure import CannotBeJudged, expect
+from autograder.authoring.failure import CannotBeJudged, NoOccasion, expect
 from autograder.engine import grading
 from autograder.engine.arena_run import NotGraded
 from autograder.engine.exercise import Exercise
@@ -94,6 +94,22 @@ def test_a_failure_has_observation_time_and_next_step_and_dependent_checks_are_n
     )
     assert "The base holds" in not_run.help
     assert (grade.status, grade.score) == ("graded", 0)
+
+
+def test_only_after_another_failure_a_check_without_an_answer_refers_to_the_others(monkeypatch):
+    @check(points=1, on=FIRST)
+    def first(run):
+        """The first has an answer"""
+        raise NoOccasion("it arrives")
+
+    @check(points=1, on=SECOND)
+    def second(run):
+        """The second has an answer"""
+        raise NoOccasion("it stops")
+
+    arenas(monkeypatch, lambda scenario, scale: transcript(scenario))
+    helps = [verdict.help for verdict in graded(exercise(first, second), jobs=1).checks]
+    assert [help.startswith("Fix what the other checks report first") for help in helps] == [False, True]
 
 
 def test_an_arena_that_fails_is_tried_again_and_then_not_graded(monkeypatch, two_checks):
