@@ -10,14 +10,14 @@ from typing import Literal
 from autograder.classroom.audit.generated.mistakes import OPERATORS
 from autograder.classroom.audit.generated.program import Edits, Named, last_name
 from autograder.classroom.questions.question import Part
-from autograder.classroom.questions.student_program import StudentProgram
+from autograder.classroom.questions.student_program import StudentProgram, as_code
 
 # Mistakes that need understanding. Those left out are easy to see (a unit, a sign), or no line that a person writes.
 USED = (
     *("misses_a_cancel", "ends_otherwise", "answers_otherwise", "takes_the_code_for_the_status"),
     *("counts_from_the_start", "lets_nan_through", "makes_a_name_absolute", "takes_the_usual_qos"),
     *("looks_at_the_first_only", "forgets_one_of_several", "forgets_a_reset", "halves_or_doubles"),
-    *("loses_the_exit_status", "takes_another_constant", "leaves_a_field_out", "drops_a_guard"),
+    *("takes_another_constant", "leaves_a_field_out", "drops_a_guard"),
 )
 SLEEP_TIME = 2.5  # s
 _SAYS_SOMETHING = ("print", "info", "warning", "warn", "error", "debug", "fatal", "get_logger")
@@ -54,7 +54,8 @@ class Change:
 def changes(program: StudentProgram) -> Iterator[Change]:
     """Yield changes of single lines: those of the generated audit that need understanding, and lines left out."""
     for operator in USED:
-        for edits in OPERATORS[operator][1](program):
+        for made in OPERATORS[operator][1](program):
+            edits = {node: new.replace("'/' + '", "'/") for node, new in made.items()}
             if not any("__" in new for new in edits.values()):
                 yield from _change(program, operator, edits)
     for statement in program.every(ast.stmt):
@@ -82,7 +83,7 @@ def _change(
     if text and len(lines) == 1:
         (line,) = lines
         new = text.split("\n")[line - 1].strip()
-        supposed = f"{program.quoted(line)}, {'were missing' if new == 'pass' else f'were `{new}`'}"
+        supposed = f"{program.quoted(line)}, were {'missing' if new == 'pass' else as_code(new)}"
         yield Change("executor" if why else "change", operator, line, text, supposed, first, why)
 
 
@@ -143,17 +144,19 @@ def _sleeps_instead(program: StudentProgram, spin: ast.Call) -> Iterator[Change]
 
 
 def _sleeps_first(program: StudentProgram, spin: ast.Call) -> Iterator[Change]:
-    """A callback for messages sleeps, and everything else waits for the one thread."""
-    for callback in program.callbacks("subscription", "timer", "feedback"):
-        others = [one.name for one in program.callbacks("service", "goal", "execute", "feedback")]
-        names = ", ".join(name for name in others if name != callback.name)
+    """A callback sleeps, and everything else waits for the one thread."""
+    for callback in program.callbacks("subscription", "timer", "feedback", "service", "goal"):
+        others = program.callbacks("subscription", "timer", "feedback", "service", "goal", "execute")
+        names = ", ".join(one.name for one in others if one is not callback)
         why = (
             f"One thread runs all callbacks ({program.quoted(spin.lineno)}): while {callback.name} sleeps, all others "
-            f"have to wait ({names or 'also those for answers and results'}), and what {callback.name} stores is late."
+            f"have to wait ({names or 'also those for answers and results'}), and what {callback.name} stores or "
+            "answers is late."
         )
-        sleep = f"{_import_time(program)}time.sleep({SLEEP_TIME})"
-        ((first, statements),) = program.begun_with(callback, sleep).items()
-        yield from _change(program, "sleeps_first", {first: statements.replace("\n", "; ")}, why)
+        is_text = ast.get_docstring(callback) is not None
+        for first in [one for one in callback.body[is_text:] if not hasattr(one, "body")][:1]:
+            edits: Edits = {first: f"{_import_time(program)}time.sleep({SLEEP_TIME}); {ast.unparse(first)}"}
+            yield from _change(program, "sleeps_first", edits, why)
 
 
 def _has_an_effect(statement: ast.stmt) -> bool:

@@ -67,7 +67,7 @@ class Maker:
         return replace(sheet, questions=questions, note=few if len(questions) < self.number else "")
 
     def _questions(self, program: StudentProgram, passed: set[str]) -> tuple[Question, ...]:
-        """Choose one question of each kind, then changes, then moments, each about another line."""
+        """Choose one question of each kind, then changes, then moments, each about another line and moment."""
         offers = bool(program.callbacks("service", "execute"))
         of_moments = self._moments(program)
         of_executor = self._effects(executor_changes(program), passed, offers)
@@ -75,7 +75,9 @@ class Maker:
         chosen: dict[int, Question] = {}
         for source in (of_moments, of_executor, *[of_changes] * self.number, *[of_moments] * self.number):
             if len(chosen) < self.number:
-                question = next((one for one in source if one.line not in chosen), None)
+                told = {one.situation for one in chosen.values()} - {""}
+                unlike = (one for one in source if one.line not in chosen and one.situation not in told)
+                question = next(unlike, None)
                 chosen |= {question.line: question} if question else {}
         return tuple(chosen.values())
 

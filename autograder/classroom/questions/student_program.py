@@ -14,6 +14,7 @@ WAITS = ("sleep", "wait", "wait_for")  # names of calls that keep the thread
 MOST_LINES = 2000  # of a program that is read, so that no text keeps the command busy for hours
 LONGEST_QUOTE = 100  # characters of a line of code
 _KINDS = ("subscription", "service", "timer", "feedback", "goal", "cancel", "execute", "accepted", "done")
+_JUMPS = (ast.Return, ast.Raise, ast.Continue, ast.Break)
 _NEW_LINE = re.compile("\r\n|\r|\n")  # what ends a line in Python; str.splitlines knows more
 
 
@@ -43,8 +44,7 @@ class StudentProgram(Program):
 
     def quoted(self, line: int) -> str:
         """Return a line as a question quotes it: 'line 41, `goal_handle.canceled()`'."""
-        code = self.lines[line - 1].strip()
-        return f"line {line}, `{code if len(code) <= LONGEST_QUOTE else code[:LONGEST_QUOTE] + '…'}`"
+        return f"line {line}, {as_code(self.lines[line - 1])}"
 
     def _makes_callbacks(self, function: Named) -> bool:
         """Whether a function returns a function, so that not itself but what it returns is the callback."""
@@ -93,9 +93,22 @@ class StudentProgram(Program):
         return one if isinstance(one := next(around, None), ast.While | ast.For) else None
 
     def condition(self, node: ast.AST) -> tuple[ast.If | ast.ExceptHandler | None, bool]:
-        """Return the innermost `if` or `except` of the same function that leads to a node, and whether it was true."""
+        """Return the last `if` or `except` of the same function that decides that a node is reached, and if it held.
+
+        That is one around the node, or an `if` before it whose body leaves the block.
+        """
         below = node
         for one in self.above(node):
+            blocks = [
+                block for _, block in ast.iter_fields(one) if isinstance(block, list) and below in block
+            ]
+            for earlier in reversed(blocks[0][: blocks[0].index(below)] if blocks else ()):
+                if (
+                    isinstance(earlier, ast.If)
+                    and not earlier.orelse
+                    and isinstance(earlier.body[-1], _JUMPS)
+                ):
+                    return earlier, False
             if isinstance(one, Named):
                 break
             if isinstance(one, ast.ExceptHandler) or (isinstance(one, ast.If) and below is not one.test):
@@ -152,6 +165,12 @@ class StudentProgram(Program):
         except SyntaxError:
             return None
         return text if is_same else None
+
+
+def as_code(line: str) -> str:
+    """Return a line between backticks, without the colon that would stand before the sentence's own punctuation."""
+    code = line.strip().removesuffix(":").replace("`", "'")
+    return f"`{code if len(code) <= LONGEST_QUOTE else code[:LONGEST_QUOTE] + '…'}`"
 
 
 def _require_interfaces(tree: ast.Module) -> None:

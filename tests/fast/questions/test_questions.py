@@ -200,7 +200,42 @@ def test_key_of_a_clients_request_to_cancel_names_the_line_that_sent_it_and_its_
     assert f"received a request at {cancel.t:.1f} s to cancel its goal" in question.situation
     sent, condition = (part.key for part in question.parts)
     assert sent.startswith(f"line {sends}, `handle.cancel_goal_async()`, at ")
-    assert condition == f"line {line_of(program, 'if not is_heard:')}, `if not is_heard:`: it was true."
+    assert condition == f"line {line_of(program, 'if not is_heard:')}, `if not is_heard`: it was true."
+
+
+@pytest.fixture(scope="module")
+def server() -> StudentProgram:
+    return StudentProgram(known("motor_services", "class_based"))
+
+
+def answered(server: StudentProgram, scenario: str) -> Transcript:
+    """Return a recorded run of the known services, with what their traced copy reports on each answer."""
+    path = recorded.FOLDER / "motor_services" / f"class_based.{scenario}.jsonl.gz"
+    run = recorded.read(path, recorded.scenarios_of("motor_services")[scenario])
+    signs = {
+        "Motors": ("success = True", 1),
+        "power": ("success = True", 0),
+        "the robot": ("success = False", 0),
+    }
+    reports = []
+    for call in run.calls:
+        code, number = next(place for sign, place in signs.items() if call.response.message.startswith(sign))
+        line = line_of(server, code, number)
+        reports += [(call.answered.t, f"{line} success"), (call.answered.t, f"{line + 1} message")]
+    return with_reports(run, reports)
+
+
+def test_same_requests_at_once_have_a_sure_key_and_the_guard_before_a_line_is_its_condition(server):
+    refused, accepted = line_of(server, "success = False"), line_of(server, "success = True")
+    asked = moments(server, answered(server, "in_order-5"))
+    keys = {one.line: one.parts[1].key for one in asked}
+    guard = f"line {line_of(server, 'if not request.data')}, `{server.lines[refused - 2].strip().removesuffix(':')}`"
+    assert keys[refused] == f"{guard}: it was true."
+    assert keys[accepted] == f"{guard}: it was false."
+    assert {one.parts[0].asked for one in asked if one.line in (refused, refused + 1)} == {
+        f"Which line of your program gave `{name}` its value in this answer?"
+        for name in ("success", "message")
+    }
 
 
 def test_an_exception_that_led_to_a_line_is_asked():
@@ -265,7 +300,8 @@ def test_await_becomes_a_sleep_in_a_node_with_one_thread():
 
 
 def test_subscription_of_a_plain_service_sleeps_first():
-    (change,) = executor_changes(StudentProgram(SERVICE))
+    change, of_service = executor_changes(StudentProgram(SERVICE))
+    assert "import time; time.sleep(2.5); response.success = True" in of_service.text
     assert "import time; time.sleep(2.5); self.state = message" in change.text
     assert "rclpy.spin" in change.why
     assert "on_status" in change.why
