@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
 
 from autograder.classroom.audit.generated.mistakes import OPERATORS
 from autograder.classroom.audit.generated.program import Edits, Named, last_name
@@ -33,16 +32,14 @@ class Change:
     """A change of a line, and the question that it may become.
 
     Attributes:
-        kind: of the question.
         operator: what made it.
         line: its number.
         text: the whole changed program.
         supposed: the change in words: "line 41, …, were missing".
         first: what is asked first, about the program as it is.
-        why: the reason for the effect, as far as the text of the program shows it.
+        why: the reason for the effect, which the program shows; "" if the change is not about the executor.
     """
 
-    kind: Literal["executor", "change"]
     operator: str
     line: int
     text: str
@@ -56,7 +53,9 @@ def changes(program: StudentProgram) -> Iterator[Change]:
     for operator in USED:
         for made in OPERATORS[operator][1](program):
             edits = {node: new.replace("'/' + '", "'/") for node, new in made.items()}
-            if not any("__" in new for new in edits.values()):
+            if not any(
+                "__" in new or new.startswith("not (") for new in edits.values()
+            ):  # nobody writes these
                 yield from _change(program, operator, edits)
     for statement in program.every(ast.stmt):
         if _has_an_effect(statement) and not program.is_of_start(statement):
@@ -77,14 +76,15 @@ def executor_changes(program: StudentProgram) -> Iterator[Change]:
 def _change(
     program: StudentProgram, operator: str, edits: Edits, why: str = "", first: tuple[Part, ...] = ()
 ) -> Iterator[Change]:
-    """Yield the change if all its edits are in one line; those with a reason are about the executor."""
+    """Yield the change if all its edits are in one line, of which the question quotes enough to show it."""
     text = program.with_text(edits)
-    lines = {node.lineno for node in edits if isinstance(node, ast.expr | ast.stmt)}
-    if text and len(lines) == 1:
-        (line,) = lines
-        new = text.split("\n")[line - 1].strip()
-        supposed = f"{program.quoted(line)}, were {'missing' if new == 'pass' else as_code(new)}"
-        yield Change("executor" if why else "change", operator, line, text, supposed, first, why)
+    line, *others = {node.lineno for node in edits if isinstance(node, ast.expr | ast.stmt)}
+    if text and not others:
+        old, new = program.quoted(line), as_code(text.split("\n")[line - 1])
+        if new not in old:
+            yield Change(
+                operator, line, text, f"{old}, were {'missing' if new == '`pass`' else new}", first, why
+            )
 
 
 def _waits_of_goals(program: StudentProgram) -> Iterator[tuple[ast.Call | ast.Await, Named]]:

@@ -97,15 +97,11 @@ def _notebook(sheet: Sheet, answers: Mapping[str, str], *, with_keys: bool = Fal
     """Return a notebook with the questions and a cell for each answer, whose text `answers` has by the cell's name."""
     cells = [_text("title", f"# {sheet.exercise}: questions about your own program")]
     for place, (name, answer) in enumerate(answers.items()):
-        question = sheet.questions[place] if place < len(sheet.questions) else None
-        asked = question.lettered([part.asked for part in question.parts]) if question else []
-        keys = (
-            question.lettered([part.key for part in question.parts])
-            if question
-            else [NO_QUESTION, sheet.note]
-        )
-        situation = question.situation if question else ""
-        cells.append(_text(f"asked-{place}", f"### Question {place + 1}\n\n{html_of(situation, *asked)}"))
+        asked, keys = [""], [NO_QUESTION, sheet.note]
+        for question in sheet.questions[place : place + 1]:
+            asked = [question.situation, *question.lettered([part.asked for part in question.parts])]
+            keys = question.lettered([part.key for part in question.parts])
+        cells.append(_text(f"asked-{place}", f"### Question {place + 1}\n\n{html_of(*asked)}"))
         if with_keys:
             cells.append(_text(f"{KEY}{place}", f"**Key, for the examiner**\n\n{html_of(*keys)}"))
         metadata = cell_metadata(name, points=POINTS, solution=True)

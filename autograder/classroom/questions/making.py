@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import TypeVar
+from itertools import count
+from typing import Literal, TypeVar
 
 from autograder.classroom.questions.changes import Change, changes, executor_changes
 from autograder.classroom.questions.moments import moments
@@ -136,12 +137,9 @@ class Maker:
 
     def _in_turn(self, made: Iterable[Change]) -> list[Change]:
         """Return changes in the student's order, from each operator in turn."""
-        turns: Counter[str] = Counter()
-        in_turn: list[tuple[int, Change]] = []
-        for change in self._in_order(made, lambda one: f"{one.operator} {one.line} {one.supposed}"):
-            turns[change.operator] += 1
-            in_turn.append((turns[change.operator], change))
-        return [change for _, change in sorted(in_turn, key=lambda one: one[0])]
+        turns: defaultdict[str, Iterator[int]] = defaultdict(count)
+        in_order = self._in_order(made, lambda one: f"{one.operator} {one.line} {one.supposed}")
+        return sorted(in_order, key=lambda one: next(turns[one.operator]))
 
 
 def _words(question: Question) -> str:
@@ -155,7 +153,8 @@ def _question(change: Change, failed: Sequence[CheckVerdict], who: str) -> Quest
     asked = (
         f"Suppose {change.supposed}. Which clause of the task would be broken, what would {who} see, and why?"
     )
-    return Question(change.kind, change.line, "", (*change.first, Part(asked, key)))
+    kind: Literal["executor", "change"] = "executor" if change.why else "change"
+    return Question(kind, change.line, "", (*change.first, Part(asked, key)))
 
 
 def _seen(verdict: CheckVerdict) -> str:

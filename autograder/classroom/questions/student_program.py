@@ -5,8 +5,10 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 from autograder.classroom.audit.generated.program import Edits, Named, Program, callbacks, last_name
 
@@ -37,10 +39,8 @@ class StudentProgram(Program):
         except Exception as error:
             raise UnreadableProgram(f"{type(error).__name__}: {error}") from error
         self.named = [one for one in self.every(ast.stmt) if isinstance(one, Named)]
-        registered = {one: kind for kind in _KINDS for one in callbacks(self, kind)}
-        self.kinds: dict[Named, str] = {
-            one: kind for one, kind in registered.items() if not self._makes_callbacks(one)
-        }
+        registered = ((one, kind) for kind in _KINDS for one in callbacks(self, kind))
+        self.kinds = {one: kind for one, kind in registered if not self._makes_callbacks(one)}
 
     def quoted(self, line: int) -> str:
         """Return a line as a question quotes it: 'line 41, `goal_handle.canceled()`'."""
@@ -99,10 +99,9 @@ class StudentProgram(Program):
         """
         below = node
         for one in self.above(node):
-            blocks = [
-                block for _, block in ast.iter_fields(one) if isinstance(block, list) and below in block
-            ]
-            for earlier in reversed(blocks[0][: blocks[0].index(below)] if blocks else ()):
+            blocks: Iterator[Any] = (block for _, block in ast.iter_fields(one) if isinstance(block, list))
+            before = next((block[: block.index(below)] for block in blocks if below in block), [])
+            for earlier in reversed(before):
                 if (
                     isinstance(earlier, ast.If)
                     and not earlier.orelse
@@ -140,31 +139,25 @@ class StudentProgram(Program):
         """Return the call that decides how many threads run the callbacks; None if that is not clear."""
         calls = list(self.every(ast.Call))
         executors = [one for one in calls if last_name(one).endswith("Executor")]
-        known = [
-            one for one in executors if last_name(one) in ("MultiThreadedExecutor", "SingleThreadedExecutor")
-        ]
         spins = [one for one in calls if re.match(r"rclpy\.spin", ast.unparse(one.func))]
-        return (
-            (known[0] if len(executors) == len(known) == 1 else None)
-            if executors
-            else next(iter(spins), None)
-        )
+        found = executors or spins[:1]
+        is_known = not executors or last_name(found[0]) in ("MultiThreadedExecutor", "SingleThreadedExecutor")
+        return found[0] if len(found) == 1 and is_known else None
 
     def with_text(self, edits: Edits) -> str | None:
         """Return the program with edits in single lines and no line moved; None if the text cannot express them."""
-        lines = [line.encode() for line in self.lines]
+        lines = list(self.lines)
         for node, new in sorted(edits.items(), key=lambda edit: -edit[0].col_offset):  # type: ignore[attr-defined]
             assert isinstance(node, ast.expr | ast.stmt)
             if "\n" in new or node.lineno != node.end_lineno:
                 return None
-            old = lines[node.lineno - 1]
-            lines[node.lineno - 1] = old[: node.col_offset] + new.encode() + old[node.end_col_offset :]
-        text = "\n".join(line.decode(errors="replace") for line in lines)
-        try:
-            is_same = ast.dump(ast.parse(text)) == ast.dump(ast.parse(self.changed(edits)))
-        except SyntaxError:
-            return None
-        return text if is_same else None
+            old = lines[node.lineno - 1].encode()
+            changed = old[: node.col_offset] + new.encode() + old[node.end_col_offset :]
+            lines[node.lineno - 1] = changed.decode(errors="replace")
+        text = "\n".join(lines)
+        with suppress(SyntaxError):
+            return text if ast.dump(ast.parse(text)) == ast.dump(ast.parse(self.changed(edits))) else None
+        return None
 
 
 def as_code(line: str) -> str:
@@ -179,7 +172,6 @@ def _require_interfaces(tree: ast.Module) -> None:
         package, _, kind = (getattr(one, "module", "") or "").rpartition(".")
         if isinstance(one, ast.ImportFrom) and kind in ("msg", "srv", "action"):
             found = find_spec(package) if package.isidentifier() else None
-            if not any(
-                (Path(place) / kind).is_dir() for place in (found and found.submodule_search_locations) or ()
-            ):
+            places = (found and found.submodule_search_locations) or ()
+            if not any((Path(place) / kind).is_dir() for place in places):
                 raise ImportError(f"there is no package of interfaces {package!r}")
