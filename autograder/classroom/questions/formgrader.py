@@ -51,12 +51,10 @@ class QuestionsGradebook(CourseGradebook):
 
     def submitted_notebook(self, entry: Entry) -> NotebookNode:
         """Return a student's notebook with keys, and with the answers as text that cannot become live HTML."""
-        answers = {name: (entry.sources or {}).get(name, "") for name in self._names}
-        no_answer = entry.problem or "No written answer."
-        shown = {
-            name: f"### Answer {place}\n\n{_verbatim(text or no_answer)}"
-            for place, (name, text) in enumerate(answers.items(), 1)
-        }
+        shown = {}
+        for place, name in enumerate(self._names, 1):
+            answer = (entry.sources or {}).get(name) or entry.problem or "No written answer."
+            shown[name] = f"### Answer {place}\n\n{_verbatim(answer)}"
         return _notebook(self._sheets[entry.grade.student], shown, with_keys=True)
 
     def is_marked(self, student: str, submitted: Path) -> bool:
@@ -95,26 +93,26 @@ def write_notebook(folder: Path, sheet: Sheet) -> None:
 
 def _notebook(sheet: Sheet, answers: Mapping[str, str], *, with_keys: bool = False) -> NotebookNode:
     """Return a notebook with the questions and a cell for each answer, whose text `answers` has by the cell's name."""
-    cells = [_text("title", f"# {sheet.exercise}: questions about your own program")]
+    title = f"# {sheet.exercise}: questions about your own program"
+    cells = [new_markdown_cell(title, id="title")]
     for place, (name, answer) in enumerate(answers.items()):
         asked, keys = [""], [NO_QUESTION, sheet.note]
         for question in sheet.questions[place : place + 1]:
             asked = [question.situation, *question.lettered([part.asked for part in question.parts])]
             keys = question.lettered([part.key for part in question.parts])
-        cells.append(_text(f"asked-{place}", f"### Question {place + 1}\n\n{html_of(*asked)}"))
+        shown = f"### Question {place + 1}\n\n{html_of(*asked)}"
+        cells.append(new_markdown_cell(shown, id=f"asked-{place}"))
         if with_keys:
-            cells.append(_text(f"{KEY}{place}", f"**Key, for the examiner**\n\n{html_of(*keys)}"))
+            shown = f"**Key, for the examiner**\n\n{html_of(*keys)}"
+            cells.append(new_markdown_cell(shown, id=f"{KEY}{place}"))
         metadata = cell_metadata(name, points=POINTS, solution=True)
         cells.append(new_markdown_cell(answer, id=name, metadata=metadata))
     if sheet.program:
         lines = [f"{line:4}  {code}" for line, code in enumerate(sheet.program.split("\n"), 1)]
         listing = _verbatim("\n".join(lines))
-        cells.append(_text("program", f"### The program, with the numbers of its lines\n\n{listing}"))
+        shown = f"### The program, with the numbers of its lines\n\n{listing}"
+        cells.append(new_markdown_cell(shown, id="program"))
     return new_notebook(cells=cells, metadata=_PYTHON)
-
-
-def _text(name: str, words: str) -> NotebookNode:
-    return new_markdown_cell(words, id=name)
 
 
 def _verbatim(text: str) -> str:

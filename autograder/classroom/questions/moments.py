@@ -22,6 +22,7 @@ from autograder.classroom.questions.question import Part, Question
 from autograder.classroom.questions.student_program import StudentProgram
 from autograder.classroom.questions.traced import ASKS, SEEN, STOPS, Mark, marks
 from humanoid_interfaces.msg import RobotState
+from ros_runtime.drawing.svg import shorten
 
 STILL = 0.05  # m/s, below which the robot counts as standing
 STILL_TIME = 0.3  # s for which it must be slower than that
@@ -119,14 +120,12 @@ class _SeenRun:
         if not call.answer:
             return
         response, begun, over = call.answer.response, call.sent.t, call.answer.t
-        for other in self.run.calls:
-            is_over = other.answer and other.answer.t <= begun - OUTPUT_DELAY
-            if other.sent.t < over + OUTPUT_DELAY and not is_over and not _is_alike(other, call):
-                return
-        request, answer = (
-            shown_fields(one, *_simple(one))[:LONGEST_TEXT] for one in (call.request, response)
-        )
-        story = f"a client called {call.service} at {begun:.1f} s{request and f' with {request}'}."
+        others = [one for one in self.run.calls if one.sent.t < over + OUTPUT_DELAY]
+        near = [one for one in others if not one.answer or one.answer.t > begun - OUTPUT_DELAY]
+        if any(not one.answer or _words_of(one) != _words_of(call) for one in near):
+            return
+        request, answer = _words_of(call)
+        story = f"a client called {request} at {begun:.1f} s."
         for name in _simple(response):
             if mark := self._only(begun, over, name):
                 asked = f"Which line of your program gave `{name}` its value in this answer?"
@@ -184,11 +183,11 @@ class _SeenRun:
         return ours[0] if len({mark.line for mark in ours}) == 1 or (ours and what == SEEN) else None
 
 
-def _is_alike(one: Call, other: Call) -> bool:
-    """Whether two calls asked the same and got the same answer."""
-    return bool(one.answer and other.answer) and (one.service, one.request, one.response) == (
-        *(other.service, other.request, other.response),
-    )
+def _words_of(call: Call) -> tuple[str, str]:
+    """Return the simple fields of a request and of its response."""
+    told = (call.request, call.response)
+    request, answer = (shorten(shown_fields(one, *_simple(one)), LONGEST_TEXT) for one in told)
+    return f"{call.service}{request and f' with {request}'}", answer
 
 
 def _simple(message: Any) -> list[str]:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from autograder.classroom.audit.generated.program import Edits, Named, Program, callbacks, last_name
+from ros_runtime.drawing.svg import shorten
 
 WAITS = ("sleep", "wait", "wait_for")  # names of calls that keep the thread
 MOST_LINES = 2000  # of a program that is read, so that no text keeps the command busy for hours
@@ -99,15 +100,11 @@ class StudentProgram(Program):
         """
         below = node
         for one in self.above(node):
-            blocks: Iterator[Any] = (block for _, block in ast.iter_fields(one) if isinstance(block, list))
-            before = next((block[: block.index(below)] for block in blocks if below in block), [])
-            for earlier in reversed(before):
-                if (
-                    isinstance(earlier, ast.If)
-                    and not earlier.orelse
-                    and isinstance(earlier.body[-1], _JUMPS)
-                ):
-                    return earlier, False
+            blocks = (block for _, block in ast.iter_fields(one) if isinstance(block, list))
+            before: list[Any] = next((block[: block.index(below)] for block in blocks if below in block), [])
+            guards = [each for each in before if isinstance(each, ast.If) and not each.orelse]
+            if guards := [each for each in guards if isinstance(each.body[-1], _JUMPS)]:
+                return guards[-1], False
             if isinstance(one, Named):
                 break
             if isinstance(one, ast.ExceptHandler) or (isinstance(one, ast.If) and below is not one.test):
@@ -163,7 +160,7 @@ class StudentProgram(Program):
 def as_code(line: str) -> str:
     """Return a line between backticks, without the colon that would stand before the sentence's own punctuation."""
     code = line.strip().removesuffix(":").replace("`", "'")
-    return f"`{code if len(code) <= LONGEST_QUOTE else code[:LONGEST_QUOTE] + '…'}`"
+    return f"`{shorten(code, LONGEST_QUOTE)}`"
 
 
 def _require_interfaces(tree: ast.Module) -> None:

@@ -385,7 +385,7 @@ def test_key_quotes_a_long_observation_in_part_and_its_steps_whole():
         robot_time=3.14,
     )
     key = making._seen(verdict)
-    assert f"{'9' * 250}…; steps: 1 × get_status (at 3.1 s)." in key
+    assert f"{'9' * 249}…; steps: 1 × get_status (at 3.1 s)." in key
 
 
 def test_a_change_after_which_nothing_works_is_not_asked(grader):
