@@ -62,9 +62,10 @@ class QuestionsGradebook(CourseGradebook):
         verdicts = [CheckVerdict(name, name, "to mark", 0, POINTS) for name in self._names]
         grade = Grade(assignment_of(self._sheets[student].exercise), student, BY_HAND, verdicts)
         try:
-            return self.enter(Entry(grade, answers_in(submitted / student, grade.exercise))) is not None
+            entry = Entry(grade, answers_in(submitted / student, grade.exercise))
         except (UnusableSubmission, ValueError) as error:
-            return self.enter(Entry(grade, None, f"The answers cannot be read: {error}")) is not None
+            entry = Entry(grade, None, f"The answers cannot be read: {error}")
+        return self.enter(entry) is not None
 
 
 def assignment_of(exercise: str) -> str:
