@@ -86,7 +86,7 @@ def _change(
             )
 
 
-def _waits_of_goals(program: StudentProgram) -> list[tuple[ast.Call | ast.Await, Named]]:
+def _waits_of_goals(program: StudentProgram) -> list[tuple[ast.expr, Named]]:
     """Return the waits in loops of execute callbacks, each with a callback for messages that goes on meanwhile."""
     waits = [wait for execute in program.callbacks("execute") for wait in program.waits(execute)]
     others = program.callbacks("subscription")[:1]

@@ -156,7 +156,7 @@ class _SeenRun:
         elif led and not condition:
             key = f"{self.program.quoted(led.lineno)}."
             parts.append(Part("Which exception led to that line, and where is it caught?", key))
-        if stores := self.program.stores(condition or mark.node, self.program.function(mark.node)):
+        if stores := self.program.stores(read := condition or mark.node, self.program.function(read)):
             of_whom = "condition" if condition else "line"
             asked = f"Which lines store what that {of_whom} reads, outside its own function, and when do they run?"
             parts.append(Part(asked, "; ".join(map(self._where_and_when, stores)) + "."))

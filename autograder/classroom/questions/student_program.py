@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
 from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
@@ -77,26 +76,28 @@ class StudentProgram(Program):
         found = [(one.name, kind) for one, kind in self.kinds.items() if function in self.reached(one)]
         return found[0] if len(found) == 1 else ("", "")
 
-    def waits(self, function: Named) -> list[ast.Call | ast.Await]:
+    def waits(self, function: Named) -> list[ast.expr]:
         """Return where a function, and those that it calls, keep the thread for a time, or give it back by `await`."""
         return [wait for one in self.reached(function) for wait in self.waits_in(one)]
 
-    def waits_in(self, node: ast.AST) -> Iterator[ast.Call | ast.Await]:
-        """Yield the waits inside one node."""
-        for one in self.every(ast.expr, node):
-            is_call = isinstance(one, ast.Call) and last_name(one) in WAITS
-            if isinstance(one, ast.Await) or (is_call and not isinstance(self.parent(one), ast.Await)):
-                yield one  # type: ignore[misc]
+    def waits_in(self, node: ast.AST) -> list[ast.expr]:
+        """Return the waits inside one node."""
+        calls = [one for one in self.every(ast.Call, node) if last_name(one) in WAITS]
+        awaited = [one for one in calls if isinstance(self.parent(one), ast.Await)]
+        return [*self.every(ast.Await, node), *(one for one in calls if one not in awaited)]
 
     def loop(self, node: ast.AST) -> ast.While | ast.For | None:
         """Return the innermost loop around a node in its own function."""
         around = (one for one in self.above(node) if isinstance(one, Named | ast.While | ast.For))
         return one if isinstance(one := next(around, None), ast.While | ast.For) else None
 
-    def condition(self, node: ast.AST) -> tuple[ast.If | ast.ExceptHandler | None, bool]:
-        """Return the last `if` or `except` of the same function that decides that a node is reached, and if it held.
+    def condition(
+        self, node: ast.AST, *, follows: bool = True
+    ) -> tuple[ast.If | ast.ExceptHandler | None, bool]:
+        """Return the last `if` or `except` that decides that a node is reached, and whether it was true.
 
-        That is one around the node, or an `if` before it whose body leaves the block.
+        That is one around the node, or an `if` before it whose body leaves the block. If the function has none, and
+        `follows`, it is that of the function's only call.
         """
         below = node
         for one in self.above(node):
@@ -106,7 +107,9 @@ class StudentProgram(Program):
             if guards := [each for each in guards if isinstance(each.body[-1], _JUMPS)]:
                 return guards[-1], False
             if isinstance(one, Named):
-                break
+                calls = [call for call in self.every(ast.Call) if follows and last_name(call) == one.name]
+                is_only = len(calls) == 1 and one not in self.kinds
+                return self.condition(calls[0], follows=False) if is_only else (None, True)
             if isinstance(one, ast.ExceptHandler) or (isinstance(one, ast.If) and below is not one.test):
                 return one, below in one.body
             below = one
@@ -121,12 +124,11 @@ class StudentProgram(Program):
         parameters = {one.arg for one in outside.args.args} - {"self"} if outside else set()
         names = {ast.unparse(one) for one in self.every(ast.Attribute, read)}
         names = {name for name in names if name.split(".")[0] not in parameters}
-        assigned = [one for one in self.every(ast.Assign) if names & set(map(ast.unparse, one.targets))]
-        ours = [one for one in assigned if self._class_of(one) is self._class_of(read)]
-        return [one for one in ours if self.function(one) is not outside and not self.is_of_start(one)]
-
-    def _class_of(self, node: ast.AST) -> ast.ClassDef | None:
-        return next((one for one in self.above(node) if isinstance(one, ast.ClassDef)), None)
+        of_class = next((one for one in self.above(read) if isinstance(one, ast.ClassDef)), None)
+        assigned = [
+            one for one in self.every(ast.Assign, of_class) if names & set(map(ast.unparse, one.targets))
+        ]
+        return [one for one in assigned if self.function(one) is not outside and not self.is_of_start(one)]
 
     def is_of_start(self, node: ast.AST) -> bool:
         """Whether a node is in `main`, in an `__init__`, or outside all functions."""

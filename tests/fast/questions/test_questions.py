@@ -238,6 +238,17 @@ def test_same_requests_at_once_have_a_sure_key_and_the_guard_before_a_line_is_it
     }
 
 
+def test_the_condition_of_a_function_without_one_is_that_of_its_only_call():
+    program = StudentProgram(known("battery_guard", "one_loop"))
+    line = line_of(program, "handle.cancel_goal_async()", 1)
+    (node,) = [
+        one for one in program.every(ast.Attribute) if one.lineno == line and one.attr.startswith("cancel")
+    ]
+    led, holds = program.condition(node)
+    assert led.lineno == line_of(program, "if not ended.done():")
+    assert holds
+
+
 def test_an_exception_that_led_to_a_line_is_asked():
     program = StudentProgram(known("walk_client", "spins_in_a_thread"))
     second = line_of(program, "handle.cancel_goal_async()", 1)
