@@ -103,9 +103,11 @@ class StudentProgram(Program):
         for one in self.above(node):
             blocks = (block for _, block in ast.iter_fields(one) if isinstance(block, list))
             before: list[Any] = next((block[: block.index(below)] for block in blocks if below in block), [])
-            guards = [each for each in before if isinstance(each, ast.If) and not each.orelse]
-            if guards := [each for each in guards if isinstance(each.body[-1], _JUMPS)]:
-                return guards[-1], False
+            before = [each for each in before if not isinstance(each, Named)]
+            leaving = [each for each in before if any(isinstance(part, _JUMPS) for part in ast.walk(each))]
+            for last in leaving[-1:]:
+                is_guard = isinstance(last, ast.If) and not last.orelse and isinstance(last.body[-1], _JUMPS)
+                return (last, False) if is_guard else (None, True)
             if isinstance(one, Named):
                 calls = [call for call in self.every(ast.Call) if follows and last_name(call) == one.name]
                 is_only = len(calls) == 1 and one not in self.kinds

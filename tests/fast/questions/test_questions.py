@@ -238,6 +238,18 @@ def test_same_requests_at_once_have_a_sure_key_and_the_guard_before_a_line_is_it
     }
 
 
+def test_no_condition_is_named_if_an_earlier_one_that_is_nested_could_have_left():
+    nested = SERVICE.replace(
+        "            return response\n", "            if request:\n                return response\n"
+    )
+    for text, condition in ((SERVICE, "self.state is None"), (nested, None)):
+        program = StudentProgram(text)
+        line = line_of(program, "response.success = True")
+        led, holds = program.condition(next(one for one in program.every(ast.Assign) if one.lineno == line))
+        assert (ast.unparse(led.test) if led else None) == condition
+        assert holds == (led is None)
+
+
 def test_the_condition_of_a_function_without_one_is_that_of_its_only_call():
     program = StudentProgram(known("battery_guard", "one_loop"))
     line = line_of(program, "handle.cancel_goal_async()", 1)
