@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import csv
 import io
+import re
 import sys
 from dataclasses import replace
 
@@ -21,7 +22,7 @@ from autograder.classroom.questions.making import Maker
 from autograder.classroom.questions.moments import moments
 from autograder.classroom.questions.pages import EXAMINER, TABLE, write_pages
 from autograder.classroom.questions.question import Part, Question, Sheet, keep, kept
-from autograder.classroom.questions.student_program import StudentProgram, UnreadableProgram
+from autograder.classroom.questions.student_program import StudentProgram, UnreadableProgram, as_code
 from autograder.classroom.questions.traced import traced
 from autograder.engine.exercise import exercises_folder, load_exercise
 from autograder.engine.judging import verdict_on
@@ -306,6 +307,19 @@ def test_a_line_left_out_is_called_missing(walker, made):
     gone = line_of(walker, "goal_handle.canceled()")
     (one,) = [each for each in made if each.line == gone and each.operator == "leaves_a_line_out"]
     assert one.supposed == f"line {gone}, `goal_handle.canceled()`, were missing"
+
+
+@pytest.mark.parametrize("style", ["one_loop", "spins_in_a_thread"])
+def test_changes_are_lines_that_a_person_writes_and_that_the_quote_shows(style):
+    for one in changes(StudentProgram(known("walk_client", style))):
+        old, _, new = one.supposed.partition(", were ")
+        assert new not in old
+        assert not re.search(r"'/' \+ '|not \(|\) and 0`|:`", new)
+
+
+def test_quoted_code_ends_without_its_colon_and_cannot_end_the_quote():
+    assert as_code("    if mode == FALLEN:\n") == "`if mode == FALLEN`"
+    assert as_code('print("`x`")') == "`print(\"'x'\")`"
 
 
 def test_executor_with_threads_is_reduced_to_one(walker):
