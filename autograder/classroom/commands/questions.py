@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from concurrent.futures import ThreadPoolExecutor
-from hashlib import sha256
 from pathlib import Path
 from typing import Annotated
 
@@ -53,22 +52,20 @@ def questions(
     The same student gets the same questions for the same program. After an interruption, type the same command again:
     finished students are kept.
     """
-    console = Console(highlight=False)
+    console = Console(markup=False, highlight=False)
     loaded = load_exercise(exercise, hidden=False)
     is_program = len(loaded.file_names) == 1 and loaded.file_names[0].endswith(".py")
     if not is_program or any(not scenario.timed for check in loaded.checks for scenario in check.on):
-        raise CourseError(
-            f"{exercise} is not one program that runs with the robot, so it has no lines to ask about"
-        )
+        reason = "is not one program that runs with the robot, so it has no lines to ask about"
+        raise CourseError(f"{exercise} {reason}")
     found = collect(submitted)
     for line in found.refused:
-        console.print(f"left out: {line}", style="yellow", markup=False)
-    works = [work for work in found.works if work.exercise == exercise]
-    works = [work for work in works if not student or work.student in student]
-    if missing := sorted({*(student or ())} - {work.student for work in works}) or (
-        not works and ["anybody"]
-    ):
-        raise CourseError(f"{submitted} has no submission of {exercise} by {', '.join(missing)}")
+        console.print(f"left out: {line}", style="yellow")
+    by_student = {work.student: work for work in found.works if work.exercise == exercise}
+    missing = [name for name in student or () if name not in by_student]
+    if missing or not by_student:
+        raise CourseError(f"{submitted} has no submission of {exercise} by {', '.join(missing) or 'anybody'}")
+    works = [work for name, work in by_student.items() if not student or name in student]
     try:
         sheets = _make(console, loaded, works, out / exercise / KEPT, number, jobs)
     except KeyboardInterrupt:
@@ -78,7 +75,6 @@ def questions(
     console.print(
         f"{asked} questions for {len(sheets)} students in {out / exercise}: {STUDENTS}/ to hand out; {EXAMINER} and "
         f"{TABLE} have the keys",
-        markup=False,
     )
     if nbgrader:
         try:
@@ -88,7 +84,6 @@ def questions(
         console.print(
             f"{marked} of {len(sheets)} students are marked; Formgrader, started in {nbgrader}, shows the others under "
             f"Manual Grading > {assignment_of(exercise)}",
-            markup=False,
         )
     raise typer.Exit(0 if asked else COMMAND_FAILED)
 
@@ -101,19 +96,15 @@ def _make(
 
     def make(work: Work) -> Sheet:
         def say(doing: str) -> None:
-            console.print(f"{work.student}: {doing}", style="dim", markup=False)
+            console.print(f"{work.student}: {doing}", style="dim")
 
         try:
             submission = work.read()
         except UnusableSubmission as error:
             return Sheet(work.student, exercise.name, note=f"no questions: {error}")
         path = folder / f"{work.student}.json"
-        made_for = sha256(
-            f"{submission.fingerprint} {checks_version(exercise.folder)} {number}".encode()
-        ).hexdigest()
-        if earlier := kept(path, made_for):
-            return earlier
-        sheet = Maker(exercise, submission, number, stop, say).sheet()
+        made_for = f"{submission.fingerprint} {checks_version(exercise.folder)} {number}"
+        sheet = kept(path, made_for) or Maker(exercise, submission, number, stop, say).sheet()
         keep(path, sheet, made_for)
         return sheet
 
@@ -123,7 +114,7 @@ def _make(
             for sheet in pool.map(make, works):
                 sheets.append(sheet)
                 line = f"{sheet.student}: {len(sheet.questions)} questions; {len(sheets)} of {len(works)} students"
-                console.print(f"{line}{sheet.note and f' ({sheet.note})'}", markup=False, soft_wrap=True)
+                console.print(f"{line}{sheet.note and f' ({sheet.note})'}", soft_wrap=True)
         except BaseException:
             stop.set()
             pool.shutdown(cancel_futures=True)

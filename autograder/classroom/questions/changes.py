@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
 
 from autograder.classroom.audit.generated.mistakes import OPERATORS
 from autograder.classroom.audit.generated.program import Edits, Named, last_name
 from autograder.classroom.questions.question import Part
-from autograder.classroom.questions.student_program import StudentProgram
+from autograder.classroom.questions.student_program import StudentProgram, as_code
 
 # Mistakes that need understanding. Those left out are easy to see (a unit, a sign), or no line that a person writes.
 USED = (
     *("misses_a_cancel", "ends_otherwise", "answers_otherwise", "takes_the_code_for_the_status"),
     *("counts_from_the_start", "lets_nan_through", "makes_a_name_absolute", "takes_the_usual_qos"),
     *("looks_at_the_first_only", "forgets_one_of_several", "forgets_a_reset", "halves_or_doubles"),
-    *("loses_the_exit_status", "takes_another_constant", "leaves_a_field_out", "drops_a_guard"),
+    *("takes_another_constant", "leaves_a_field_out", "drops_a_guard"),
 )
 SLEEP_TIME = 2.5  # s
 _SAYS_SOMETHING = ("print", "info", "warning", "warn", "error", "debug", "fatal", "get_logger")
@@ -33,16 +33,14 @@ class Change:
     """A change of a line, and the question that it may become.
 
     Attributes:
-        kind: of the question.
         operator: what made it.
         line: its number.
         text: the whole changed program.
         supposed: the change in words: "line 41, …, were missing".
         first: what is asked first, about the program as it is.
-        why: the reason for the effect, as far as the text of the program shows it.
+        why: the reason for the effect, which the program shows; "" if the change is not about the executor.
     """
 
-    kind: Literal["executor", "change"]
     operator: str
     line: int
     text: str
@@ -54,8 +52,9 @@ class Change:
 def changes(program: StudentProgram) -> Iterator[Change]:
     """Yield changes of single lines: those of the generated audit that need understanding, and lines left out."""
     for operator in USED:
-        for edits in OPERATORS[operator][1](program):
-            if not any("__" in new for new in edits.values()):
+        for made in OPERATORS[operator][1](program):
+            edits = {node: new.replace("'/' + '", "'/") for node, new in made.items()}
+            if not any(re.match(r"not \(|.*__", new) for new in edits.values()):  # nobody writes these
                 yield from _change(program, operator, edits)
     for statement in program.every(ast.stmt):
         if _has_an_effect(statement) and not program.is_of_start(statement):
@@ -76,28 +75,28 @@ def executor_changes(program: StudentProgram) -> Iterator[Change]:
 def _change(
     program: StudentProgram, operator: str, edits: Edits, why: str = "", first: tuple[Part, ...] = ()
 ) -> Iterator[Change]:
-    """Yield the change if all its edits are in one line; those with a reason are about the executor."""
+    """Yield the change if all its edits are in one line, of which the question quotes enough to show it."""
     text = program.with_text(edits)
-    lines = {node.lineno for node in edits if isinstance(node, ast.expr | ast.stmt)}
-    if text and len(lines) == 1:
-        (line,) = lines
-        new = text.split("\n")[line - 1].strip()
-        supposed = f"{program.quoted(line)}, {'were missing' if new == 'pass' else f'were `{new}`'}"
-        yield Change("executor" if why else "change", operator, line, text, supposed, first, why)
+    line, *others = {node.lineno for node in edits if isinstance(node, ast.expr | ast.stmt)}
+    if text and not others:
+        old, new = program.quoted(line), as_code(text.split("\n")[line - 1])
+        if new not in old:
+            yield Change(
+                operator, line, text, f"{old}, were {'missing' if new == '`pass`' else new}", first, why
+            )
 
 
-def _waits_of_goals(program: StudentProgram) -> Iterator[tuple[ast.Call | ast.Await, Named]]:
-    """Yield the waits in loops of execute callbacks, each with a callback for messages that goes on meanwhile."""
-    for execute in program.callbacks("execute"):
-        for wait in program.waits(execute):
-            for other in program.callbacks("subscription")[:1] if program.loop(wait) else ():
-                yield wait, other
+def _waits_of_goals(program: StudentProgram) -> list[tuple[ast.expr, Named]]:
+    """Return the waits in loops of execute callbacks, each with a callback for messages that goes on meanwhile."""
+    waits = [wait for execute in program.callbacks("execute") for wait in program.waits(execute)]
+    others = program.callbacks("subscription")[:1]
+    return [(wait, other) for wait in waits for other in others if program.loop(wait)]
 
 
 def _one_thread(program: StudentProgram, call: ast.Call) -> Iterator[Change]:
     """An execute callback keeps a thread, and only further threads let the other callbacks run."""
-    found = list(_waits_of_goals(program))
-    for wait, other in found[:1] if not any(isinstance(wait, ast.Await) for wait, _ in found) else ():
+    found = _waits_of_goals(program)
+    for wait, other in () if any(isinstance(wait, ast.Await) for wait, _ in found) else found[:1]:
         place = program.quoted(wait.lineno)
         asked = (
             f"While {program.function_name(wait)} waits in {place}, {other.name} (line {other.lineno}) goes on. Which "
@@ -114,9 +113,8 @@ def _one_thread(program: StudentProgram, call: ast.Call) -> Iterator[Change]:
 
 def _one_group(program: StudentProgram) -> Iterator[Change]:
     """A callback that keeps its thread, or what it waits for, comes into the node's default group."""
-    waiting = [
-        one.name for one in program.callbacks("service", "subscription", "timer") if program.waits(one)
-    ]
+    users = program.callbacks("service", "subscription", "timer")
+    waiting = [one.name for one in users if program.waits(one)]
     why = (
         "None is the node's default group, which is mutually exclusive: however many threads there are, only one of "
         f"its callbacks runs at a time. {' and '.join(waiting)} waits."
@@ -129,10 +127,10 @@ def _one_group(program: StudentProgram) -> Iterator[Change]:
 def _sleeps_instead(program: StudentProgram, spin: ast.Call) -> Iterator[Change]:
     """A coroutine sleeps where it awaits in a loop, in a node with one thread."""
     for wait, other in _waits_of_goals(program):
-        statement, awaited = program.statement(wait), getattr(wait, "value", None)
+        statement = program.statement(wait)
         if isinstance(wait, ast.Await) and isinstance(statement, ast.Expr):
-            is_sleep = isinstance(awaited, ast.Call) and awaited.args and "sleep" in last_name(awaited)
-            seconds = ast.unparse(awaited.args[0]) if is_sleep and isinstance(awaited, ast.Call) else "0.05"
+            sleep = wait.value if "sleep" in last_name(wait.value) else None
+            seconds = ast.unparse(sleep.args[0]) if isinstance(sleep, ast.Call) and sleep.args else "0.05"
             asked = (
                 f"Your node has one thread. Why does {other.name} (line {other.lineno}) go on while "
                 f"{program.function_name(wait)} waits in {program.quoted(wait.lineno)}?"
@@ -143,29 +141,27 @@ def _sleeps_instead(program: StudentProgram, spin: ast.Call) -> Iterator[Change]
 
 
 def _sleeps_first(program: StudentProgram, spin: ast.Call) -> Iterator[Change]:
-    """A callback for messages sleeps, and everything else waits for the one thread."""
-    for callback in program.callbacks("subscription", "timer", "feedback"):
-        others = [one.name for one in program.callbacks("service", "goal", "execute", "feedback")]
-        names = ", ".join(name for name in others if name != callback.name)
+    """A callback sleeps, and everything else waits for the one thread."""
+    for callback in program.callbacks("subscription", "timer", "feedback", "service", "goal"):
+        others = program.callbacks("subscription", "timer", "feedback", "service", "goal", "execute")
+        names = ", ".join(one.name for one in others if one is not callback)
         why = (
             f"One thread runs all callbacks ({program.quoted(spin.lineno)}): while {callback.name} sleeps, all others "
-            f"have to wait ({names or 'also those for answers and results'}), and what {callback.name} stores is late."
+            f"have to wait ({names or 'also those for answers and results'}), and what {callback.name} stores or "
+            "answers is late."
         )
-        sleep = f"{_import_time(program)}time.sleep({SLEEP_TIME})"
-        ((first, statements),) = program.begun_with(callback, sleep).items()
-        yield from _change(program, "sleeps_first", {first: statements.replace("\n", "; ")}, why)
+        is_text = ast.get_docstring(callback) is not None
+        for first in [one for one in callback.body[is_text:] if not hasattr(one, "body")][:1]:
+            edits: Edits = {first: f"{_import_time(program)}time.sleep({SLEEP_TIME}); {ast.unparse(first)}"}
+            yield from _change(program, "sleeps_first", edits, why)
 
 
 def _has_an_effect(statement: ast.stmt) -> bool:
     """Whether a statement calls something other than a log, or stores something that other functions may read."""
     if isinstance(statement, ast.Assign):
         return isinstance(statement.targets[0], ast.Attribute)
-    called = getattr(statement, "value", None)
-    return (
-        isinstance(statement, ast.Expr)
-        and isinstance(called, ast.Call)
-        and last_name(called) not in _SAYS_SOMETHING
-    )
+    called = statement.value if isinstance(statement, ast.Expr) else None
+    return isinstance(called, ast.Call) and last_name(called) not in _SAYS_SOMETHING
 
 
 def _import_time(program: StudentProgram) -> str:

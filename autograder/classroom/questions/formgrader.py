@@ -51,12 +51,10 @@ class QuestionsGradebook(CourseGradebook):
 
     def submitted_notebook(self, entry: Entry) -> NotebookNode:
         """Return a student's notebook with keys, and with the answers as text that cannot become live HTML."""
-        answers = {name: (entry.sources or {}).get(name, "") for name in self._names}
-        no_answer = entry.problem or "No written answer."
-        shown = {
-            name: f"### Answer {place}\n\n{_verbatim(text or no_answer)}"
-            for place, (name, text) in enumerate(answers.items(), 1)
-        }
+        shown = {}
+        for place, name in enumerate(self._names, 1):
+            answer = (entry.sources or {}).get(name) or entry.problem or "No written answer."
+            shown[name] = f"### Answer {place}\n\n{_verbatim(answer)}"
         return _notebook(self._sheets[entry.grade.student], shown, with_keys=True)
 
     def is_marked(self, student: str, submitted: Path) -> bool:
@@ -64,9 +62,10 @@ class QuestionsGradebook(CourseGradebook):
         verdicts = [CheckVerdict(name, name, "to mark", 0, POINTS) for name in self._names]
         grade = Grade(assignment_of(self._sheets[student].exercise), student, BY_HAND, verdicts)
         try:
-            return self.enter(Entry(grade, answers_in(submitted / student, grade.exercise))) is not None
+            entry = Entry(grade, answers_in(submitted / student, grade.exercise))
         except (UnusableSubmission, ValueError) as error:
-            return self.enter(Entry(grade, None, f"The answers cannot be read: {error}")) is not None
+            entry = Entry(grade, None, f"The answers cannot be read: {error}")
+        return self.enter(entry) is not None
 
 
 def assignment_of(exercise: str) -> str:
@@ -95,30 +94,26 @@ def write_notebook(folder: Path, sheet: Sheet) -> None:
 
 def _notebook(sheet: Sheet, answers: Mapping[str, str], *, with_keys: bool = False) -> NotebookNode:
     """Return a notebook with the questions and a cell for each answer, whose text `answers` has by the cell's name."""
-    cells = [_text("title", f"# {sheet.exercise}: questions about your own program")]
+    title = f"# {sheet.exercise}: questions about your own program"
+    cells = [new_markdown_cell(title, id="title")]
     for place, (name, answer) in enumerate(answers.items()):
-        question = sheet.questions[place] if place < len(sheet.questions) else None
-        asked = question.lettered([part.asked for part in question.parts]) if question else []
-        keys = (
-            question.lettered([part.key for part in question.parts])
-            if question
-            else [NO_QUESTION, sheet.note]
-        )
-        situation = question.situation if question else ""
-        cells.append(_text(f"asked-{place}", f"### Question {place + 1}\n\n{html_of(situation, *asked)}"))
+        asked, keys = [""], [NO_QUESTION, sheet.note]
+        for question in sheet.questions[place : place + 1]:
+            asked = [question.situation, *question.lettered([part.asked for part in question.parts])]
+            keys = question.lettered([part.key for part in question.parts])
+        shown = f"### Question {place + 1}\n\n{html_of(*asked)}"
+        cells.append(new_markdown_cell(shown, id=f"asked-{place}"))
         if with_keys:
-            cells.append(_text(f"{KEY}{place}", f"**Key, for the examiner**\n\n{html_of(*keys)}"))
+            shown = f"**Key, for the examiner**\n\n{html_of(*keys)}"
+            cells.append(new_markdown_cell(shown, id=f"{KEY}{place}"))
         metadata = cell_metadata(name, points=POINTS, solution=True)
         cells.append(new_markdown_cell(answer, id=name, metadata=metadata))
     if sheet.program:
         lines = [f"{line:4}  {code}" for line, code in enumerate(sheet.program.split("\n"), 1)]
         listing = _verbatim("\n".join(lines))
-        cells.append(_text("program", f"### The program, with the numbers of its lines\n\n{listing}"))
+        shown = f"### The program, with the numbers of its lines\n\n{listing}"
+        cells.append(new_markdown_cell(shown, id="program"))
     return new_notebook(cells=cells, metadata=_PYTHON)
-
-
-def _text(name: str, words: str) -> NotebookNode:
-    return new_markdown_cell(words, id=name)
 
 
 def _verbatim(text: str) -> str:

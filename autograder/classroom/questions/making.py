@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import TypeVar
+from itertools import count
+from typing import Literal, TypeVar
 
 from autograder.classroom.questions.changes import Change, changes, executor_changes
 from autograder.classroom.questions.moments import moments
@@ -21,6 +22,7 @@ from autograder.engine.grading import VISIBLE_SEED, GradingOptions, Watcher, gra
 from autograder.engine.stop import Stop
 from autograder.engine.submission import Submission
 from autograder.engine.verdict import CheckVerdict
+from ros_runtime.drawing.svg import shorten
 
 MOST_CHANGES = 8  # changed copies that are graded for each kind of question
 MOST_RUNS = 6  # scenarios of the traced copy
@@ -67,7 +69,7 @@ class Maker:
         return replace(sheet, questions=questions, note=few if len(questions) < self.number else "")
 
     def _questions(self, program: StudentProgram, passed: set[str]) -> tuple[Question, ...]:
-        """Choose one question of each kind, then changes, then moments, each about another line."""
+        """Choose one question of each kind, then changes, then moments, each about another line and moment."""
         offers = bool(program.callbacks("service", "execute"))
         of_moments = self._moments(program)
         of_executor = self._effects(executor_changes(program), passed, offers)
@@ -75,23 +77,21 @@ class Maker:
         chosen: dict[int, Question] = {}
         for source in (of_moments, of_executor, *[of_changes] * self.number, *[of_moments] * self.number):
             if len(chosen) < self.number:
-                question = next((one for one in source if one.line not in chosen), None)
+                told = {one.situation for one in chosen.values()} - {""}
+                unlike = (one for one in source if one.line not in chosen and one.situation not in told)
+                question = next(unlike, None)
                 chosen |= {question.line: question} if question else {}
         return tuple(chosen.values())
 
     def _moments(self, program: StudentProgram) -> Iterator[Question]:
         """Run the traced copy in scenarios of the visible checks, and yield questions about what happened."""
-        scenarios = {
-            scenario: str(scenario.inputs) for check in self.exercise.checks for scenario in check.on
-        }
+        scenarios = dict.fromkeys(scenario for check in self.exercise.checks for scenario in check.on)
         copy = self._copy(traced(program))
-        for scenario in self._in_order(scenarios, lambda one: scenarios[one])[:MOST_RUNS]:
+        for scenario in self._in_order(scenarios, lambda one: str(one.inputs))[:MOST_RUNS]:
             self.say("runs the traced copy")
-            try:
+            with suppress(NotGraded):
                 run = run_in_arena(ArenaRun(self.exercise, copy.files, scenario, VISIBLE_SEED), self.stop)
-            except NotGraded:
-                continue
-            yield from self._in_order(moments(program, run), _words)
+                yield from self._in_order(moments(program, run), _words)
 
     def _effects(self, made: Iterable[Change], passed: set[str], offers: bool) -> Iterator[Question]:
         """Grade changed copies, and yield questions about those that fail checks which the program itself passes.
@@ -103,10 +103,8 @@ class Maker:
             self.say(f"grades a change of line {change.line}")
             after = self._verdicts(change.text, passed)
             failed = [one for one in after if one.status == "failed" and one.id in passed]
-            is_sure = roots.isdisjoint(one.id for one in failed) and all(
-                one.status != "error" for one in after
-            )
-            if failed and is_sure:
+            has_error = any(one.status == "error" for one in after)
+            if failed and not has_error and roots.isdisjoint(one.id for one in failed):
                 yield _question(change, failed, "a client" if offers else "the user, or the server,")
 
     def _verdicts(self, text: str, passed: set[str] | None = None) -> list[CheckVerdict]:
@@ -134,12 +132,9 @@ class Maker:
 
     def _in_turn(self, made: Iterable[Change]) -> list[Change]:
         """Return changes in the student's order, from each operator in turn."""
-        turns: Counter[str] = Counter()
-        in_turn: list[tuple[int, Change]] = []
-        for change in self._in_order(made, lambda one: f"{one.operator} {one.line} {one.supposed}"):
-            turns[change.operator] += 1
-            in_turn.append((turns[change.operator], change))
-        return [change for _, change in sorted(in_turn, key=lambda one: one[0])]
+        turns: defaultdict[str, Iterator[int]] = defaultdict(count)
+        in_order = self._in_order(made, lambda one: f"{one.operator} {one.line} {one.supposed}")
+        return sorted(in_order, key=lambda one: next(turns[one.operator]))
 
 
 def _words(question: Question) -> str:
@@ -150,10 +145,9 @@ def _words(question: Question) -> str:
 def _question(change: Change, failed: Sequence[CheckVerdict], who: str) -> Question:
     """Return the question on a change after which these checks fail."""
     key = " ".join(filter(None, (*map(_seen, failed), change.why)))
-    asked = (
-        f"Suppose {change.supposed}. Which clause of the task would be broken, what would {who} see, and why?"
-    )
-    return Question(change.kind, change.line, "", (*change.first, Part(asked, key)))
+    effect = f"Which clause of the task would be broken, what would {who} see, and why?"
+    kind: Literal["executor", "change"] = "executor" if change.why else "change"
+    return Question(kind, change.line, "", (*change.first, Part(f"Suppose {change.supposed}. {effect}", key)))
 
 
 def _seen(verdict: CheckVerdict) -> str:
@@ -161,9 +155,6 @@ def _seen(verdict: CheckVerdict) -> str:
     clauses = f"clause{'s' if numbers[1:] else ''} {', '.join(numbers)}: " if numbers else ""
     when = f" (at {verdict.robot_time:.1f} s)" if verdict.robot_time is not None else ""
     observed, *steps = verdict.observed.partition("; steps: ")
-    seen = f"expected {_cut(verdict.expected)}; observed {_cut(observed)}{''.join(steps)}{when}."
+    expected, observed = shorten(verdict.expected, LONGEST_TEXT), shorten(observed, LONGEST_TEXT)
+    seen = f"expected {expected}; observed {observed}{''.join(steps)}{when}."
     return f"{clauses}“{verdict.title}”: {seen}"
-
-
-def _cut(text: str) -> str:
-    return text if len(text) <= LONGEST_TEXT else f"{text[:LONGEST_TEXT]}…"

@@ -7,7 +7,9 @@ leave no doubt: they name one line, in the time in question.
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any
 
 from autograder.authoring.evidence import events as ev
@@ -20,6 +22,7 @@ from autograder.classroom.questions.question import Part, Question
 from autograder.classroom.questions.student_program import StudentProgram
 from autograder.classroom.questions.traced import ASKS, SEEN, STOPS, Mark, marks
 from humanoid_interfaces.msg import RobotState
+from ros_runtime.drawing.svg import shorten
 
 STILL = 0.05  # m/s, below which the robot counts as standing
 STILL_TIME = 0.3  # s for which it must be slower than that
@@ -47,8 +50,11 @@ _RUNS_WHENEVER = {
 def moments(program: StudentProgram, run: Transcript) -> list[Question]:
     """Return the questions that can be asked about a run of the traced copy."""
     seen = _SeenRun(program, run, marks(program, run))
-    asked = [*map(seen.cancel, run.goals), *map(seen.abort, run.goals), *map(seen.answer, run.calls)]
-    asked += map(seen.request, run.all(ev.CancelReceived))
+    asked = [*map(seen.cancel, run.goals), *map(seen.abort, run.goals)]
+    asked += [
+        *map(seen.request, run.all(ev.CancelReceived)),
+        *chain.from_iterable(map(seen.answers, run.calls)),
+    ]
     return [question for question in asked if question and len(question.parts) > 1]
 
 
@@ -109,22 +115,21 @@ class _SeenRun:
         story = f"{causes[0]}. The client of the {'first ' if newer else ''}goal received ABORTED at {over:.1f} s."
         return self._about(mark, story, "Which line of your program made the client receive ABORTED?")
 
-    def answer(self, call: Call) -> Question | None:
-        """An answer to a request, while no other was sent: the line that filled the first of its simple fields."""
+    def answers(self, call: Call) -> Iterator[Question]:
+        """An answer to a request, while no different one was sent: the lines that filled its simple fields."""
         if not call.answer:
-            return None
+            return
         response, begun, over = call.answer.response, call.sent.t, call.answer.t
-        others = [one.sent.t for one in self.run.calls if one.name != call.name]
-        found = [(name, mark) for name in _simple(response) if (mark := self._only(begun, over, name))]
-        if not found or any(begun - OUTPUT_DELAY < t < over + OUTPUT_DELAY for t in others):
-            return None
-        name, mark = found[0]
-        request, answer = (
-            shown_fields(one, *_simple(one))[:LONGEST_TEXT] for one in (call.request, response)
-        )
-        story = f"a client called {call.service} at {begun:.1f} s{request and f' with {request}'}."
-        asked = f"Which line of your program gave `{name}` its value in this answer?"
-        return self._about(mark, f"{story} Your program answered {answer}.", asked)
+        others = [one for one in self.run.calls if one.sent.t < over + OUTPUT_DELAY]
+        near = [one for one in others if not one.answer or one.answer.t > begun - OUTPUT_DELAY]
+        if any(not one.answer or _words_of(one) != _words_of(call) for one in near):
+            return
+        request, answer = _words_of(call)
+        story = f"a client called {request} at {begun:.1f} s."
+        for name in _simple(response):
+            if mark := self._only(begun, over, name):
+                asked = f"Which line of your program gave `{name}` its value in this answer?"
+                yield self._about(mark, f"{story} Your program answered {answer}.", asked)
 
     def request(self, cancel: ev.CancelReceived) -> Question | None:
         """The only request of a client to cancel a goal: the line that sent it, and what led to that line."""
@@ -145,11 +150,13 @@ class _SeenRun:
         condition = led.test if isinstance(led, ast.If) else None
         if condition and condition.lineno == condition.end_lineno:
             key = f"{self.program.quoted(condition.lineno)}: it was {'true' if holds else 'false'}."
-            parts.append(Part("Which condition led to that line, and was it true or false?", key))
+            parts.append(
+                Part("Which condition decided last that this line is reached, and was it true or false?", key)
+            )
         elif led and not condition:
             key = f"{self.program.quoted(led.lineno)}."
             parts.append(Part("Which exception led to that line, and where is it caught?", key))
-        if stores := self.program.stores(condition or mark.node, self.program.function(mark.node)):
+        if stores := self.program.stores(read := condition or mark.node, self.program.function(read)):
             of_whom = "condition" if condition else "line"
             asked = f"Which lines store what that {of_whom} reads, outside its own function, and when do they run?"
             parts.append(Part(asked, "; ".join(map(self._where_and_when, stores)) + "."))
@@ -174,6 +181,13 @@ class _SeenRun:
         until = over + OUTPUT_DELAY
         ours = [mark for mark in self.reported if mark.what == what and begun <= mark.t <= until]
         return ours[0] if len({mark.line for mark in ours}) == 1 or (ours and what == SEEN) else None
+
+
+def _words_of(call: Call) -> tuple[str, str]:
+    """Return the simple fields of a request and of its response."""
+    told = (call.request, call.response)
+    request, answer = (shorten(shown_fields(one, *_simple(one)), LONGEST_TEXT) for one in told)
+    return f"{call.service}{request and f' with {request}'}", answer
 
 
 def _simple(message: Any) -> list[str]:

@@ -20,9 +20,11 @@ def write_pages(out: Path, exercise: str, sheets: Sequence[Sheet]) -> None:
     for sheet in sheets:
         if sheet.questions:
             title = f"{exercise} · {sheet.student}: questions about your program"
-            _write(out / STUDENTS / f"{sheet.student}.html", title, [sheet], with_keys=False)
+            page = out / STUDENTS / f"{sheet.student}.html"
+            write_html(page, "questions.html", title=title, sheets=[sheet], with_keys=False, html_of=html_of)
             write_notebook(out / STUDENTS, sheet)
-    _write(out / EXAMINER, f"{exercise}: questions with keys", sheets, with_keys=True)
+    title = f"{exercise}: questions with keys"
+    write_html(out / EXAMINER, "questions.html", title=title, sheets=sheets, with_keys=True, html_of=html_of)
     rows: list[list[str | float]] = [
         [
             *(text_cell(sheet.student), exercise, number, LETTERS[place], one.kind, one.line),
@@ -33,7 +35,3 @@ def write_pages(out: Path, exercise: str, sheets: Sequence[Sheet]) -> None:
         for place, part in enumerate(one.parts)
     ]
     write_atomically(out / TABLE, csv_text(COLUMNS, rows))
-
-
-def _write(path: Path, title: str, sheets: Sequence[Sheet], *, with_keys: bool) -> None:
-    write_html(path, "questions.html", title=title, sheets=sheets, with_keys=with_keys, html_of=html_of)

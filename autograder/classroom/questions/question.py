@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -55,14 +56,8 @@ class Sheet:
 
 def html_of(*texts: str) -> Markup:
     """Return a paragraph for each text that is not empty, in which what is between backticks is code."""
-    return Markup("\n\n").join(Markup("<p>{}</p>").format(_with_code(text)) for text in texts if text)
-
-
-def _with_code(text: str) -> Markup:
-    pieces = enumerate(" ".join(text.split()).split("`"))
-    return Markup("").join(
-        Markup("<code>{}</code>").format(one) if place % 2 else escape(one) for place, one in pieces
-    )
+    paragraphs = (f"<p>{escape(' '.join(text.split()))}</p>" for text in texts if text)
+    return Markup(re.sub("`(.*?)`", r"<code>\1</code>", "\n\n".join(paragraphs)))
 
 
 _KEPT = TypeAdapter(tuple[str, Sheet])  # what the sheet depends on, and the sheet

@@ -26,7 +26,7 @@ def test_questions_on_a_plain_service_have_keys_from_real_runs(tmp_path):
     assert {part["kind"] for part in parts} == {"moment", "executor", "change"}
     lines = program.split("\n")
     for part in parts:
-        code = lines[int(part["line"]) - 1].strip()
+        code = lines[int(part["line"]) - 1].strip().removesuffix(":")
         assert code[:100] in f"{part['key']} {part['asked']} {part['situation']}" or part["part"] != "a"
     for part in (one for one in parts if one["asked"].startswith("Suppose")):
         assert "expected" in part["key"]

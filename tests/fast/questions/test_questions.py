@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import csv
 import io
+import re
 import sys
 from dataclasses import replace
 
@@ -21,7 +22,7 @@ from autograder.classroom.questions.making import Maker
 from autograder.classroom.questions.moments import moments
 from autograder.classroom.questions.pages import EXAMINER, TABLE, write_pages
 from autograder.classroom.questions.question import Part, Question, Sheet, keep, kept
-from autograder.classroom.questions.student_program import StudentProgram, UnreadableProgram
+from autograder.classroom.questions.student_program import StudentProgram, UnreadableProgram, as_code
 from autograder.classroom.questions.traced import traced
 from autograder.engine.exercise import exercises_folder, load_exercise
 from autograder.engine.judging import verdict_on
@@ -200,7 +201,65 @@ def test_key_of_a_clients_request_to_cancel_names_the_line_that_sent_it_and_its_
     assert f"received a request at {cancel.t:.1f} s to cancel its goal" in question.situation
     sent, condition = (part.key for part in question.parts)
     assert sent.startswith(f"line {sends}, `handle.cancel_goal_async()`, at ")
-    assert condition == f"line {line_of(program, 'if not is_heard:')}, `if not is_heard:`: it was true."
+    assert condition == f"line {line_of(program, 'if not is_heard:')}, `if not is_heard`: it was true."
+
+
+@pytest.fixture(scope="module")
+def server() -> StudentProgram:
+    return StudentProgram(known("motor_services", "class_based"))
+
+
+def answered(server: StudentProgram, scenario: str) -> Transcript:
+    """Return a recorded run of the known services, with what their traced copy reports on each answer."""
+    path = recorded.FOLDER / "motor_services" / f"class_based.{scenario}.jsonl.gz"
+    run = recorded.read(path, recorded.scenarios_of("motor_services")[scenario])
+    signs = {
+        "Motors": ("success = True", 1),
+        "power": ("success = True", 0),
+        "the robot": ("success = False", 0),
+    }
+    reports = []
+    for call in run.calls:
+        code, number = next(place for sign, place in signs.items() if call.response.message.startswith(sign))
+        line = line_of(server, code, number)
+        reports += [(call.answered.t, f"{line} success"), (call.answered.t, f"{line + 1} message")]
+    return with_reports(run, reports)
+
+
+def test_same_requests_at_once_have_a_sure_key_and_the_guard_before_a_line_is_its_condition(server):
+    refused, accepted = line_of(server, "success = False"), line_of(server, "success = True")
+    asked = moments(server, answered(server, "in_order-5"))
+    keys = {one.line: one.parts[1].key for one in asked}
+    guard = f"line {line_of(server, 'if not request.data')}, `{server.lines[refused - 2].strip().removesuffix(':')}`"
+    assert keys[refused] == f"{guard}: it was true."
+    assert keys[accepted] == f"{guard}: it was false."
+    assert {one.parts[0].asked for one in asked if one.line in (refused, refused + 1)} == {
+        f"Which line of your program gave `{name}` its value in this answer?"
+        for name in ("success", "message")
+    }
+
+
+def test_no_condition_is_named_if_an_earlier_one_that_is_nested_could_have_left():
+    nested = SERVICE.replace(
+        "            return response\n", "            if request:\n                return response\n"
+    )
+    for text, condition in ((SERVICE, "self.state is None"), (nested, None)):
+        program = StudentProgram(text)
+        line = line_of(program, "response.success = True")
+        led, holds = program.condition(next(one for one in program.every(ast.Assign) if one.lineno == line))
+        assert (ast.unparse(led.test) if led else None) == condition
+        assert holds == (led is None)
+
+
+def test_the_condition_of_a_function_without_one_is_that_of_its_only_call():
+    program = StudentProgram(known("battery_guard", "one_loop"))
+    line = line_of(program, "handle.cancel_goal_async()", 1)
+    (node,) = [
+        one for one in program.every(ast.Attribute) if one.lineno == line and one.attr.startswith("cancel")
+    ]
+    led, holds = program.condition(node)
+    assert led.lineno == line_of(program, "if not ended.done():")
+    assert holds
 
 
 def test_an_exception_that_led_to_a_line_is_asked():
@@ -250,6 +309,19 @@ def test_a_line_left_out_is_called_missing(walker, made):
     assert one.supposed == f"line {gone}, `goal_handle.canceled()`, were missing"
 
 
+@pytest.mark.parametrize("style", ["one_loop", "spins_in_a_thread"])
+def test_changes_are_lines_that_a_person_writes_and_that_the_quote_shows(style):
+    for one in changes(StudentProgram(known("walk_client", style))):
+        old, _, new = one.supposed.partition(", were ")
+        assert new not in old
+        assert not re.search(r"'/' \+ '|not \(|\) and 0`|:`", new)
+
+
+def test_quoted_code_ends_without_its_colon_and_cannot_end_the_quote():
+    assert as_code("    if mode == FALLEN:\n") == "`if mode == FALLEN`"
+    assert as_code('print("`x`")') == "`print(\"'x'\")`"
+
+
 def test_executor_with_threads_is_reduced_to_one(walker):
     (change,) = executor_changes(walker)
     assert "MultiThreadedExecutor(num_threads=1)" in change.text
@@ -265,7 +337,8 @@ def test_await_becomes_a_sleep_in_a_node_with_one_thread():
 
 
 def test_subscription_of_a_plain_service_sleeps_first():
-    (change,) = executor_changes(StudentProgram(SERVICE))
+    change, of_service = executor_changes(StudentProgram(SERVICE))
+    assert "import time; time.sleep(2.5); response.success = True" in of_service.text
     assert "import time; time.sleep(2.5); self.state = message" in change.text
     assert "rclpy.spin" in change.why
     assert "on_status" in change.why
@@ -349,7 +422,7 @@ def test_key_quotes_a_long_observation_in_part_and_its_steps_whole():
         robot_time=3.14,
     )
     key = making._seen(verdict)
-    assert f"{'9' * 250}…; steps: 1 × get_status (at 3.1 s)." in key
+    assert f"{'9' * 249}…; steps: 1 × get_status (at 3.1 s)." in key
 
 
 def test_a_change_after_which_nothing_works_is_not_asked(grader):
