@@ -171,7 +171,7 @@ def test_the_gap_of_the_refusal_asks_for_a_build_and_says_what_is_wrong(gaps: Ga
     gaps.run("lab.build_interfaces('my_interfaces')", 300)
     assert "distance 0.0" in reply(code, sentence, "return response")
     assert "return response inside the `if`" in reply(code, sentence, distance)
-    assert "end each path of the callback with `return response`" in reply(code, sentence, distance, "return")
+    assert "End every branch with `return response`" in reply(code, sentence, distance, "return")
     assert "names the frame odom" in reply(code, distance, "response.message = 'no'", "return response")
     assert "error_code 0" in reply(sentence, distance, "return response")
     assert "error_code -31" in reply(
