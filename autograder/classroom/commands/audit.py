@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated
 
@@ -75,12 +76,18 @@ def audit(
         str | None,
         typer.Option(metavar="NAME", help="replace a program by a patch of the most similar correct one"),
     ] = None,
+    robot: Annotated[
+        str | None,
+        typer.Option(help="grade the submissions of walking exercises on another robot, g1 (docs/robot.md)"),
+    ] = None,
     course: CourseOption = None,
 ) -> None:
     """Grade submissions with known faults; exit status 0 only if every verdict is as expected."""
     console = Console(highlight=False)
-    if generated and (ignored := _given(context, "repeat", "to_patch")):
-        raise CourseError(f"--generated makes its own submissions: leave out {ignored}")
+    if generated and (ignored := _given(context, "repeat", "to_patch", "robot")):
+        raise CourseError(
+            f"--generated makes its own submissions, for the course's robot: leave out {ignored}"
+        )
     if mutants and not generated:
         raise CourseError("--mutants is the number of mutants to grade: add --generated")
     if resume and json_file is None:
@@ -96,7 +103,7 @@ def audit(
         return
     earlier = read_runs(json_file) if resume and json_file else ()
     record = AuditRecord(json_file, isolation=available_isolation(), scale=scale, earlier=earlier)
-    exercises = (load_exercise(name, hidden=True) for name in ([exercise] if exercise else exercise_names()))
+    exercises = _exercises(exercise, robot)
     try:
         if generated:
             judged = [
@@ -124,6 +131,20 @@ def audit(
     if not found:
         raise CourseError(f"no {'mutant' if generated else 'submission'} matches {only!r}")
     raise typer.Exit(0 if is_as_expected else COMMAND_FAILED)
+
+
+def _exercises(name: str | None, robot: str | None) -> Iterator[Exercise]:
+    """Yield the exercise of this name, or all; with another `robot` in the scenarios, or all walking exercises."""
+    if robot is None:
+        for each in [name] if name else exercise_names():
+            yield load_exercise(each, hidden=True)
+        return
+    # imported only if needed, because it loads MuJoCo
+    from autograder.other_robot import WALKING_EXERCISES, require_robot, with_robot
+
+    for each in [name] if name else WALKING_EXERCISES:
+        require_robot(robot, each)
+        yield with_robot(robot, load_exercise(each, hidden=True))
 
 
 def _audit(
