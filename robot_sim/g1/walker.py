@@ -14,7 +14,6 @@ from robot_sim.sensors.foot_sensor import FootSensor
 from robot_sim.walking.balance_gains import BalanceGains
 from robot_sim.walking.footsteps import Command, Goal
 from robot_sim.walking.planar import clamp
-from robot_sim.walking.walking_controller import WalkingController
 from ros_runtime.angles import wrap, yaw_of
 
 RATE = 50.0  # Hz, of the network
@@ -67,14 +66,19 @@ class Policy:
         return self._session.run(None, {self._input: observation[None].astype(np.float32)})[0][0]
 
 
-class LearnedWalker(WalkingController):
+class LearnedWalker:
     """The walking controller; around the network, a loop holds the heading, and a table corrects the velocity.
 
-    It takes no Goal, and setting the height of the pelvis has no effect. It is never idle: the network always acts.
+    It has the interface of `walking.walker.Walker`, but takes no Goal, has no gains, and is never idle, as the network
+    always acts; setting the height of the pelvis has no effect.
+
+    Attributes:
+        stands: it has come to rest after its last command, and has made no step since.
+        steps: touchdowns so far.
     """
 
     goal_reached = is_idle = False
-    steps = 0
+    gains: BalanceGains | None = None
     height = math.inf  # it never crouches
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, policy: Policy) -> None:
@@ -87,22 +91,8 @@ class LearnedWalker(WalkingController):
         self._phases: np.ndarray | None = None  # of the left and right foot while it walks, rad
         self._feet = [FootSensor(model, data, side) for side in SIDES]
         self._in_air = [0.0, 0.0]  # s, of each foot
-        self._walks, self._settled = False, 0.0  # s
-
-    @property
-    def stands(self) -> bool:
-        """Whether it has come to rest after its last command, and has made no step since."""
-        return not self._walks
-
-    @property
-    def gains(self) -> BalanceGains | None:
-        """Always None: the network holds the trunk upright."""
-        return None
-
-    @gains.setter
-    def gains(self, gains: BalanceGains | None) -> None:
-        if gains is not None:
-            raise ValueError("this robot's walker was learned and has no gains")
+        self.stands, self.steps = True, 0
+        self._settled = 0.0  # s
 
     def follow(self, command: Command) -> None:
         """Walk at a Velocity; None stops.
@@ -115,7 +105,7 @@ class LearnedWalker(WalkingController):
         if self._command is None:
             self._heading = self._yaw
         self._command = command
-        self._walks = self._walks or command is not None
+        self.stands = self.stands and command is None
 
     def tick(self, dt: float) -> None:
         """Set the servos' targets for the next `dt` (s); call it between `mj_step1` and `mj_step2`."""
@@ -179,4 +169,4 @@ class LearnedWalker(WalkingController):
         vx, vy = self._data.qvel[:2].tolist()
         moves = swings or self._command is not None or math.hypot(vx, vy) > STILL
         self._settled = 0.0 if moves else self._settled + 1 / RATE
-        self._walks = swings or (self._walks and self._settled < SETTLING_TIME)
+        self.stands = not swings and (self.stands or self._settled >= SETTLING_TIME)
