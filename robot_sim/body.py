@@ -30,7 +30,6 @@ class Body:
 
     Attributes:
         name: one of `ROBOTS`.
-        scenes: those it can stand in.
         limits: how fast it walks.
         heights: how low it crouches.
         fallen_height: it has fallen if its pelvis is lower (m).
@@ -44,7 +43,6 @@ class Body:
     """
 
     name: str
-    scenes: Sequence[str]
     limits: WalkingLimits
     heights: HeightLimits
     fallen_height: float

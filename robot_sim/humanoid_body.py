@@ -9,7 +9,6 @@ from robot_sim.body import Body
 from robot_sim.model.build import build_model
 from robot_sim.model.dimensions import dimensions_of
 from robot_sim.model.posture import take_stance
-from robot_sim.model.scenes import SCENES
 from robot_sim.model.side import SIDES
 from robot_sim.walking.balance_gains import trunk_of
 from robot_sim.walking.body_height import HeightLimits
@@ -25,7 +24,6 @@ def walker_of(model: MjModel, data: MjData, state: MjData | None = None) -> Walk
 
 HUMANOID = Body(
     name="humanoid",
-    scenes=tuple(SCENES),
     limits=WalkingLimits(),
     heights=HeightLimits(),
     fallen_height=0.38,

@@ -24,7 +24,6 @@ PARTS = {  # each package that is needed, and the file that is read there
     "holosoma_inference": "models/loco/g1_29dof/ppo_g1_29dof.onnx",
     "mujoco_playground": "_src/locomotion/g1/xmls/g1_mjx_feetonly.xml",
 }
-SCENES = ("flat",)
 
 
 @cache
@@ -38,15 +37,14 @@ def g1_body() -> Body:
     policy = Policy(network)
 
     def model_in(scene: str, shape: Callable[[Any], object]) -> MjModel:
-        if scene not in SCENES:
-            raise ValueError(f"the G1 has no scene {scene!r}; it has {', '.join(SCENES)}")
+        if scene != "flat":
+            raise ValueError(f"the G1 has no scene {scene!r}; it has flat")
         model = g1_model(model_file, shape)
         policy.set_servos(model)
         return model
 
     return Body(
         name="g1",
-        scenes=SCENES,
         limits=WalkingLimits(forward=0.45, backward=0.28, sideways=0.12, turn=0.6),
         heights=HeightLimits(lowest=STANCE_HEIGHT),
         fallen_height=0.5,
