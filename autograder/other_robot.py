@@ -19,26 +19,22 @@ class NotOnThisRobot(CourseError):
     """The exercise cannot be checked with that robot; the message says why."""
 
 
-def require_robot(robot: str, exercise: str) -> None:
-    """Require that an exercise can be checked with this robot.
+def with_robot(robot: str, exercise: Exercise) -> Exercise:
+    """Return the exercise with another robot in its scenarios, and with checks that are worth no points.
 
     Raises:
-        NotOnThisRobot: it cannot.
+        NotOnThisRobot: the exercise cannot be checked with this robot.
         MissingParts: packages of the robot are not installed.
     """
-    if exercise not in WALKING_EXERCISES:
+    if exercise.name not in WALKING_EXERCISES:
         raise NotOnThisRobot(
-            f"{exercise} cannot be checked with the robot {robot}, which only walks; the exercises are "
+            f"{exercise.name} cannot be checked with the robot {robot}, which only walks; the exercises are "
             f"{', '.join(WALKING_EXERCISES)}"
         )
     try:
         body_named(robot)
     except ValueError as error:
         raise NotOnThisRobot(str(error)) from None
-
-
-def with_robot(robot: str, exercise: Exercise) -> Exercise:
-    """Return the exercise with another robot in its scenarios, and with checks that are worth no points."""
     scenarios: dict[Scenario, Scenario] = {}  # each runs once, even if several checks judge it
 
     def extra(check: Check) -> Check:

@@ -128,9 +128,8 @@ def check_with_progress(
     loaded = load_exercise(exercise, hidden=False)
     if robot:
         # imported only if needed, because it loads MuJoCo
-        from autograder.other_robot import require_robot, with_robot
+        from autograder.other_robot import with_robot
 
-        require_robot(robot, exercise)
         loaded = with_robot(robot, loaded)
     submission = read_submission(path, exercise)
     recorder = _recorder(loaded) if recordings or page else None

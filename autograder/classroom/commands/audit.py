@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated
 
@@ -103,7 +102,12 @@ def audit(
         return
     earlier = read_runs(json_file) if resume and json_file else ()
     record = AuditRecord(json_file, isolation=available_isolation(), scale=scale, earlier=earlier)
-    exercises = _exercises(exercise, robot)
+    exercises = (load_exercise(name, hidden=True) for name in ([exercise] if exercise else exercise_names()))
+    if robot:
+        # imported only if needed, because it loads MuJoCo
+        from autograder.other_robot import WALKING_EXERCISES, with_robot
+
+        exercises = (with_robot(robot, one) for one in exercises if exercise or one.name in WALKING_EXERCISES)
     try:
         if generated:
             judged = [
@@ -131,20 +135,6 @@ def audit(
     if not found:
         raise CourseError(f"no {'mutant' if generated else 'submission'} matches {only!r}")
     raise typer.Exit(0 if is_as_expected else COMMAND_FAILED)
-
-
-def _exercises(name: str | None, robot: str | None) -> Iterator[Exercise]:
-    """Yield the exercise of this name, or all; with another `robot` in the scenarios, or all walking exercises."""
-    if robot is None:
-        for each in [name] if name else exercise_names():
-            yield load_exercise(each, hidden=True)
-        return
-    # imported only if needed, because it loads MuJoCo
-    from autograder.other_robot import WALKING_EXERCISES, require_robot, with_robot
-
-    for each in [name] if name else WALKING_EXERCISES:
-        require_robot(robot, each)
-        yield with_robot(robot, load_exercise(each, hidden=True))
 
 
 def _audit(

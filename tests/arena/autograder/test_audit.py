@@ -9,13 +9,13 @@ The correct and the hostile submission of each exercise come first. The faulty o
 as they share arenas. On a slow machine, `--audit-minutes` skips what has not begun by then, and the summary counts it.
 
 Where the G1 is installed, all correct submissions and a few faulty ones of the exercises whose scenarios have a walking
-robot are also graded on it (`-k g1`). The other walking exercises have scripted servers: no scenario differs there.
+robot are then graded on it (`-k g1`). The other walking exercises have scripted servers: no scenario differs there.
 """
 
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 
 import psutil
 import pytest
@@ -53,7 +53,7 @@ def label(known, robot):
 
 GRADED = [
     pytest.param(known, robot, id=label(known, robot), marks=needs_g1 if robot else ())
-    for known, robot in sorted(chosen(), key=lambda one: one[0].kind == "faulty")
+    for known, robot in sorted(chosen(), key=lambda one: (one[1], one[0].kind == "faulty"))
 ]
 
 
@@ -103,7 +103,8 @@ def audited(request):
         exercise = enough_to_catch(known, EXERCISES[known.exercise])
         if robot:
             exercise = with_robot(robot, exercise)
-        with places.one(), shared.lent_to(known, exercise) as arenas:
+        lent = nullcontext() if robot else shared.lent_to(known, exercise)
+        with places.one(), lent as arenas:
             if time.monotonic() > end:
                 return None
             return audit_one(
@@ -119,8 +120,11 @@ def audited(request):
             pytest.skip(f"not begun within --audit-minutes {minutes:g}: the machine is slow")
         return audit
 
-    submissions = [known for known, _ in wanted]
-    with SharedArenas(submissions) as shared, ThreadPoolExecutor(ARENAS_AT_A_TIME + MORE_IF_IDLE) as pool:
+    on_the_usual_robot = [known for known, robot in wanted if not robot]
+    with (
+        SharedArenas(on_the_usual_robot) as shared,
+        ThreadPoolExecutor(ARENAS_AT_A_TIME + MORE_IF_IDLE) as pool,
+    ):
         runs = {graded: pool.submit(audit_in_time, *graded) for graded in wanted}
         yield result_of
         pool.shutdown(cancel_futures=True)
