@@ -121,7 +121,7 @@ def check_with_progress(
     `arenas` are those of this submission, if one was opened ahead; `recordings` is a folder for recordings of the
     scenarios, if they are wanted, and `page` a file for a page to show. With another `robot` the checks have no points.
 
-    Raises `UnusableSubmission`, `UnknownExercise`, `NoPage` and `NotOnThisRobot`.
+    Raises `UnusableSubmission`, `UnknownExercise`, `NoPage`, and `CourseError` if the exercise is not for the robot.
     """
     if page:
         _require_place(page)

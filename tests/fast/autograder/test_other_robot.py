@@ -7,10 +7,11 @@ from typer.testing import CliRunner
 
 from autograder.authoring.checks import MAY_REST, Scenario
 from autograder.engine.exercise import Exercise, load_exercise
-from autograder.other_robot import WALKING_EXERCISES, NotOnThisRobot, with_robot
+from autograder.other_robot import WALKING_EXERCISES, with_robot
 from course_cli.app import app
 from g1 import needs_g1
 from robot_sim.ros.options import parse_options
+from ros_runtime.course_error import CourseError
 
 
 def scenarios_of(exercise: Exercise) -> set[Scenario]:
@@ -41,7 +42,7 @@ def test_every_robot_of_the_scenarios_is_the_other_one_and_no_check_has_points(n
     ],
 )
 def test_another_exercise_or_an_unknown_robot_is_refused(robot, name, said):
-    with pytest.raises(NotOnThisRobot, match=said):
+    with pytest.raises(CourseError, match=said):
         with_robot(robot, load_exercise(name, hidden=False))
     ran = CliRunner().invoke(app("audit"), ["audit", name, "--robot", robot])
     assert (ran.exit_code, said in " ".join(ran.output.split())) == (2, True)
