@@ -36,7 +36,7 @@ class Body:
         still_speed: slower than this (m/s) its pelvis moves from a second after a stop.
         model: compiles the robot, standing in a scene; a function is called with the model before.
         take_stance: resets the state to standing with the pelvis at (x, y) m, heading `yaw` rad, and a height (m).
-        walker: makes the controller that starts from the present state.
+        walker: makes the controller that starts from the present state, with the interface of `Walker`.
         movable: the joints that a trajectory can move.
         hands: the sides with a gripper.
         may_rest: it can stand so still that its physics need not be integrated.

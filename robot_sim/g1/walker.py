@@ -37,11 +37,7 @@ STILL, SETTLING_TIME = 0.04, 0.2  # m/s, s
 
 
 class Policy:
-    """The network in an ONNX file, with the joints it was trained for and the gains of their servos.
-
-    Attributes:
-        joints: their names, in the order of inputs and outputs.
-    """
+    """The network in an ONNX file, with the joints it was trained for and the gains of their servos."""
 
     def __init__(self, file: Path) -> None:
         import onnxruntime
@@ -50,13 +46,13 @@ class Policy:
         options.intra_op_num_threads = options.inter_op_num_threads = 1
         self._session = onnxruntime.InferenceSession(str(file), options, providers=["CPUExecutionProvider"])
         about = self._session.get_modelmeta().custom_metadata_map
-        self.joints: tuple[str, ...] = tuple(json.loads(about["dof_names"]))
+        self._joints: list[str] = json.loads(about["dof_names"])  # in the order of inputs and outputs
         self._stiffness, self._damping = (np.array(json.loads(about[gain])) for gain in ("kp", "kd"))
         (self._input,) = (each.name for each in self._session.get_inputs())
 
     def set_servos(self, model: mujoco.MjModel) -> None:
         """Give the servos of a model the gains with which the network was trained."""
-        if [model.actuator(index).name for index in range(model.nu)] != [*self.joints]:
+        if [model.actuator(index).name for index in range(model.nu)] != self._joints:
             raise ValueError("the model and the network have different joints")
         model.actuator_gainprm[:, 0] = self._stiffness
         model.actuator_biasprm[:, 1], model.actuator_biasprm[:, 2] = -self._stiffness, -self._damping
