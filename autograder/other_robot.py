@@ -15,30 +15,21 @@ WALKING_EXERCISES = (
 )
 
 
-class NotOnThisRobot(CourseError):
-    """The exercise cannot be checked with that robot; the message says why."""
-
-
-def require_robot(robot: str, exercise: str) -> None:
-    """Require that an exercise can be checked with this robot.
+def with_robot(robot: str, exercise: Exercise) -> Exercise:
+    """Return the exercise with another robot in its scenarios, and with checks that are worth no points.
 
     Raises:
-        NotOnThisRobot: it cannot.
-        MissingParts: packages of the robot are not installed.
+        CourseError: the exercise cannot be checked with this robot, or packages of the robot are not installed.
     """
-    if exercise not in WALKING_EXERCISES:
-        raise NotOnThisRobot(
-            f"{exercise} cannot be checked with the robot {robot}, which only walks; the exercises are "
+    if exercise.name not in WALKING_EXERCISES:
+        raise CourseError(
+            f"{exercise.name} cannot be checked with the robot {robot}, which only walks; the exercises are "
             f"{', '.join(WALKING_EXERCISES)}"
         )
     try:
         body_named(robot)
     except ValueError as error:
-        raise NotOnThisRobot(str(error)) from None
-
-
-def with_robot(robot: str, exercise: Exercise) -> Exercise:
-    """Return the exercise with another robot in its scenarios, and with checks that are worth no points."""
+        raise CourseError(str(error)) from None
     scenarios: dict[Scenario, Scenario] = {}  # each runs once, even if several checks judge it
 
     def extra(check: Check) -> Check:
@@ -51,7 +42,6 @@ def with_robot(robot: str, exercise: Exercise) -> Exercise:
 def _with_robot(robot: str, scenario: Scenario) -> Scenario:
     if scenario.robot is None:
         return scenario
-    options = [
-        option for option in scenario.robot if option != MAY_REST
-    ]  # the clock then suits a robot that moves
+    # without MAY_REST the clock suits a robot that moves
+    options = [option for option in scenario.robot if option != MAY_REST]
     return replace(scenario, robot=("--robot", robot, *options))

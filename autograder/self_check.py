@@ -121,16 +121,15 @@ def check_with_progress(
     `arenas` are those of this submission, if one was opened ahead; `recordings` is a folder for recordings of the
     scenarios, if they are wanted, and `page` a file for a page to show. With another `robot` the checks have no points.
 
-    Raises `UnusableSubmission`, `UnknownExercise`, `NoPage` and `NotOnThisRobot`.
+    Raises `UnusableSubmission`, `UnknownExercise`, `NoPage`, and `CourseError` if the exercise is not for the robot.
     """
     if page:
         _require_place(page)
     loaded = load_exercise(exercise, hidden=False)
     if robot:
         # imported only if needed, because it loads MuJoCo
-        from autograder.other_robot import require_robot, with_robot
+        from autograder.other_robot import with_robot
 
-        require_robot(robot, exercise)
         loaded = with_robot(robot, loaded)
     submission = read_submission(path, exercise)
     recorder = _recorder(loaded) if recordings or page else None

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mujoco import MjData, MjModel
 
 from robot_sim.model.side import Side
 from robot_sim.walking.body_height import HeightLimits
-from robot_sim.walking.walking_controller import WalkingController
 from robot_sim.walking.walking_limits import WalkingLimits
 from ros_runtime.course_error import CourseError
+
+if TYPE_CHECKING:
+    from robot_sim.g1.walker import LearnedWalker
+    from robot_sim.walking.walker import Walker
 
 ROBOTS = ("humanoid", "g1")
 
@@ -27,32 +30,26 @@ class Body:
 
     Attributes:
         name: one of `ROBOTS`.
-        scenes: those it can stand in.
-        joints: names of the actuated joints, in the order of the actuators.
         limits: how fast it walks.
         heights: how low it crouches.
         fallen_height: it has fallen if its pelvis is lower (m).
         still_speed: slower than this (m/s) its pelvis moves from a second after a stop.
-        model: compiles the robot in a scene; a function is called with the model before.
-        stance_height: height (m) of the pelvis above the floor while it stands.
+        model: compiles the robot, standing in a scene; a function is called with the model before.
         take_stance: resets the state to standing with the pelvis at (x, y) m, heading `yaw` rad, and a height (m).
-        walker: makes the controller that starts from the present state.
+        walker: makes the controller that starts from the present state, with the interface of `Walker`.
         movable: the joints that a trajectory can move.
         hands: the sides with a gripper.
         may_rest: it can stand so still that its physics need not be integrated.
     """
 
     name: str
-    scenes: Sequence[str]
-    joints: Sequence[str]
     limits: WalkingLimits
     heights: HeightLimits
     fallen_height: float
     still_speed: float
     model: Callable[[str, Callable[[Any], object]], MjModel]
-    stance_height: Callable[[MjModel], float]
     take_stance: Callable[[MjModel, MjData, float, float, float, float], None]
-    walker: Callable[[MjModel, MjData], WalkingController]
+    walker: Callable[[MjModel, MjData], Walker | LearnedWalker]
     movable: Sequence[str] = ()
     hands: Sequence[Side] = ()
     may_rest: bool = False

@@ -51,6 +51,8 @@ class Humanoid:
         scene: its name.
         seed: of the sensors' errors; a new one takes effect at the next `reset()`.
         model, data: of MuJoCo; the pelvis is base_link, the world is odom.
+        joints: names of the actuated joints, in the order of the actuators.
+        stance_height: height (m) of the pelvis above the floor while it stands.
         battery: charge, voltage, current.
         hands: the grippers by side.
         feet: the force-torque sensors of the feet, by side.
@@ -72,8 +74,10 @@ class Humanoid:
         self.model = self.body.model(scene, shape)
         self.data = mujoco.MjData(self.model)
         self.timestep: float = self.model.opt.timestep
+        self.stance_height: float = self.model.body("pelvis").pos[2].item()
         self.seed = seed
-        joints = [self.model.joint(name) for name in self.body.joints]
+        self.joints = tuple(self.model.actuator(index).name for index in range(self.model.nu))
+        joints = [self.model.joint(name) for name in self.joints]
         self._joint_positions = np.array([joint.qposadr[0] for joint in joints])
         self._joint_velocities = np.array([joint.dofadr[0] for joint in joints])
         self._torso_rotation = self.data.xmat[self.model.body("torso").id]
@@ -86,7 +90,7 @@ class Humanoid:
         With a `height` (m, of the pelvis) below that of the stance it begins in a crouch, if it can crouch.
         """
         self._set_actuation(True)
-        stance = self.body.stance_height(self.model)
+        stance = self.stance_height
         height = stance if height is None else clamp(height, self.body.heights.lowest, stance)
         self.body.take_stance(self.model, self.data, x, y, yaw, height)
         self.battery = Battery()
@@ -103,7 +107,7 @@ class Humanoid:
     def _take_control(self) -> None:
         """Start the controllers from the present state of the robot."""
         self._walker = self.body.walker(self.model, self.data)
-        self._height = BodyHeight(self._walker, self.body.stance_height(self.model), self.body.heights)
+        self._height = BodyHeight(self._walker, self.stance_height, self.body.heights)
         self._pending: Command = None
         self._upper_body = UpperBody(self.model, self.data, self.body.movable)
 
@@ -208,7 +212,8 @@ class Humanoid:
             self._earlier_steps = self.steps
             gains = self._walker.gains
             self._take_control()
-            self._walker.gains = gains
+            if gains:
+                self._walker.gains = gains
             self._upper_body.follow(HOLD)
         self._set_actuation(on)
 
@@ -279,7 +284,9 @@ class Humanoid:
         return self._walker.gains
 
     @balance_gains.setter
-    def balance_gains(self, gains: BalanceGains | None) -> None:
+    def balance_gains(self, gains: BalanceGains) -> None:
+        if self._walker.gains is None:
+            raise ValueError("this robot's walker was learned and has no gains")
         self._walker.gains = gains
         self._rest.wake()
 
@@ -353,7 +360,7 @@ class Humanoid:
     def joint_state(self) -> JointState:
         """Return positions, velocities and efforts of the actuated joints."""
         return JointState(
-            tuple(self.body.joints),
+            self.joints,
             self.data.qpos[self._joint_positions],
             self.data.qvel[self._joint_velocities],
             self.data.actuator_force.copy(),

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from mujoco import MjData, MjModel
 
 from robot_sim.arms.joint_trajectory import MOVABLE
 from robot_sim.body import Body
 from robot_sim.model.build import build_model
 from robot_sim.model.dimensions import dimensions_of
-from robot_sim.model.joint_names import ACTUATED_JOINTS
 from robot_sim.model.posture import take_stance
-from robot_sim.model.scenes import SCENES
 from robot_sim.model.side import SIDES
 from robot_sim.walking.balance_gains import trunk_of
 from robot_sim.walking.body_height import HeightLimits
@@ -26,21 +22,14 @@ def walker_of(model: MjModel, data: MjData, state: MjData | None = None) -> Walk
     return Walker(model, data, state or data, trunk_of(model), WalkerParameters(dimensions_of(model)))
 
 
-def _take_stance(model: MjModel, data: MjData, x: float, y: float, yaw: float, height: float) -> None:
-    take_stance(model, data, replace(dimensions_of(model), stance_height=height), x, y, yaw)
-
-
 HUMANOID = Body(
     name="humanoid",
-    scenes=tuple(SCENES),
-    joints=tuple(ACTUATED_JOINTS),
     limits=WalkingLimits(),
     heights=HeightLimits(),
     fallen_height=0.38,
     still_speed=0.05,
     model=lambda scene, shape: build_model(scene, shape=shape),
-    stance_height=lambda model: dimensions_of(model).stance_height,
-    take_stance=_take_stance,
+    take_stance=take_stance,
     walker=walker_of,
     movable=MOVABLE,
     hands=SIDES,

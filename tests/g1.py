@@ -1,4 +1,4 @@
-"""Whether the optional robot G1 is installed, for the tests of it."""
+"""The robots to test with; the optional G1 is left out, with the reason, where its packages are not installed."""
 
 from __future__ import annotations
 
@@ -6,13 +6,11 @@ import pytest
 
 from robot_sim.body import MissingParts, body_named
 
+try:
+    body_named("g1")
+    _missing = ""
+except MissingParts as error:
+    _missing = str(error)
 
-def _missing() -> str:
-    try:
-        body_named("g1")
-    except MissingParts as error:
-        return str(error)
-    return ""
-
-
-needs_g1 = pytest.mark.skipif(bool(_missing()), reason=_missing())
+needs_g1 = pytest.mark.skipif(bool(_missing), reason=_missing)
+ROBOTS = ("humanoid", pytest.param("g1", marks=needs_g1))

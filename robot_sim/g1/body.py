@@ -13,7 +13,7 @@ import mujoco
 from mujoco import MjData, MjModel
 
 from robot_sim.body import Body, MissingParts
-from robot_sim.g1.model import g1_model
+from robot_sim.g1.model import STANCE_HEIGHT, g1_model
 from robot_sim.g1.walker import STANCE, LearnedWalker, Policy
 from robot_sim.walking.body_height import HeightLimits
 from robot_sim.walking.walking_limits import WalkingLimits
@@ -24,8 +24,6 @@ PARTS = {  # each package that is needed, and the file that is read there
     "holosoma_inference": "models/loco/g1_29dof/ppo_g1_29dof.onnx",
     "mujoco_playground": "_src/locomotion/g1/xmls/g1_mjx_feetonly.xml",
 }
-SCENES = ("flat",)
-STANCE_HEIGHT = 0.76  # m
 
 
 @cache
@@ -39,22 +37,19 @@ def g1_body() -> Body:
     policy = Policy(network)
 
     def model_in(scene: str, shape: Callable[[Any], object]) -> MjModel:
-        if scene not in SCENES:
-            raise ValueError(f"the G1 has no scene {scene!r}; it has {', '.join(SCENES)}")
+        if scene != "flat":
+            raise ValueError(f"the G1 has no scene {scene!r}; it has flat")
         model = g1_model(model_file, shape)
         policy.set_servos(model)
         return model
 
     return Body(
         name="g1",
-        scenes=SCENES,
-        joints=policy.joints,
         limits=WalkingLimits(forward=0.45, backward=0.28, sideways=0.12, turn=0.6),
         heights=HeightLimits(lowest=STANCE_HEIGHT),
         fallen_height=0.5,
         still_speed=0.12,
         model=model_in,
-        stance_height=lambda model: STANCE_HEIGHT,
         take_stance=_take_stance,
         walker=lambda model, data: LearnedWalker(model, data, policy),
     )

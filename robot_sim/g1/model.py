@@ -12,6 +12,7 @@ import numpy as np
 from robot_sim.model.side import SIDES
 
 TIMESTEP = 0.002  # s
+STANCE_HEIGHT = 0.76  # m, of the pelvis
 DRY_FRICTION = 0.1  # N·m, in every joint
 SENSORS = {  # the model's names of the sensors that the robot has, and the course's
     "gyro_pelvis": "imu_gyro",
@@ -58,6 +59,7 @@ def g1_model(file: Path, shape: Callable[[mujoco.MjSpec], object] = lambda spec:
     model = spec.compile()
     model.dof_damping[6:], model.dof_frictionloss[6:] = 0.0, DRY_FRICTION
     model.actuator_ctrllimited[:] = False
+    model.body("pelvis").pos[2] = STANCE_HEIGHT
     return model
 
 

@@ -14,7 +14,6 @@ from robot_sim.sensors.foot_sensor import FootSensor
 from robot_sim.walking.balance_gains import BalanceGains
 from robot_sim.walking.footsteps import Command, Goal
 from robot_sim.walking.planar import clamp
-from robot_sim.walking.walking_controller import WalkingController
 from ros_runtime.angles import wrap, yaw_of
 
 RATE = 50.0  # Hz, of the network
@@ -38,11 +37,7 @@ STILL, SETTLING_TIME = 0.04, 0.2  # m/s, s
 
 
 class Policy:
-    """The network in an ONNX file, with the joints it was trained for and the gains of their servos.
-
-    Attributes:
-        joints: their names, in the order of inputs and outputs.
-    """
+    """The network in an ONNX file, with the joints it was trained for and the gains of their servos."""
 
     def __init__(self, file: Path) -> None:
         import onnxruntime
@@ -51,13 +46,13 @@ class Policy:
         options.intra_op_num_threads = options.inter_op_num_threads = 1
         self._session = onnxruntime.InferenceSession(str(file), options, providers=["CPUExecutionProvider"])
         about = self._session.get_modelmeta().custom_metadata_map
-        self.joints: tuple[str, ...] = tuple(json.loads(about["dof_names"]))
+        self._joints: list[str] = json.loads(about["dof_names"])  # in the order of inputs and outputs
         self._stiffness, self._damping = (np.array(json.loads(about[gain])) for gain in ("kp", "kd"))
         (self._input,) = (each.name for each in self._session.get_inputs())
 
     def set_servos(self, model: mujoco.MjModel) -> None:
         """Give the servos of a model the gains with which the network was trained."""
-        if [model.actuator(index).name for index in range(model.nu)] != [*self.joints]:
+        if [model.actuator(index).name for index in range(model.nu)] != self._joints:
             raise ValueError("the model and the network have different joints")
         model.actuator_gainprm[:, 0] = self._stiffness
         model.actuator_biasprm[:, 1], model.actuator_biasprm[:, 2] = -self._stiffness, -self._damping
@@ -67,14 +62,19 @@ class Policy:
         return self._session.run(None, {self._input: observation[None].astype(np.float32)})[0][0]
 
 
-class LearnedWalker(WalkingController):
+class LearnedWalker:
     """The walking controller; around the network, a loop holds the heading, and a table corrects the velocity.
 
-    It takes no Goal, and setting the height of the pelvis has no effect. It is never idle: the network always acts.
+    It has the interface of `walking.walker.Walker`, but takes no Goal, has no gains, and is never idle, as the network
+    always acts; setting the height of the pelvis has no effect.
+
+    Attributes:
+        stands: it has come to rest after its last command, and has made no step since.
+        steps: touchdowns so far.
     """
 
     goal_reached = is_idle = False
-    steps = 0
+    gains: BalanceGains | None = None
     height = math.inf  # it never crouches
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, policy: Policy) -> None:
@@ -87,22 +87,8 @@ class LearnedWalker(WalkingController):
         self._phases: np.ndarray | None = None  # of the left and right foot while it walks, rad
         self._feet = [FootSensor(model, data, side) for side in SIDES]
         self._in_air = [0.0, 0.0]  # s, of each foot
-        self._walks, self._settled = False, 0.0  # s
-
-    @property
-    def stands(self) -> bool:
-        """Whether it has come to rest after its last command, and has made no step since."""
-        return not self._walks
-
-    @property
-    def gains(self) -> BalanceGains | None:
-        """Always None: the network holds the trunk upright."""
-        return None
-
-    @gains.setter
-    def gains(self, gains: BalanceGains | None) -> None:
-        if gains is not None:
-            raise ValueError("this robot's walker was learned and has no gains")
+        self.stands, self.steps = True, 0
+        self._settled = 0.0  # s
 
     def follow(self, command: Command) -> None:
         """Walk at a Velocity; None stops.
@@ -115,7 +101,7 @@ class LearnedWalker(WalkingController):
         if self._command is None:
             self._heading = self._yaw
         self._command = command
-        self._walks = self._walks or command is not None
+        self.stands = self.stands and command is None
 
     def tick(self, dt: float) -> None:
         """Set the servos' targets for the next `dt` (s); call it between `mj_step1` and `mj_step2`."""
@@ -179,4 +165,4 @@ class LearnedWalker(WalkingController):
         vx, vy = self._data.qvel[:2].tolist()
         moves = swings or self._command is not None or math.hypot(vx, vy) > STILL
         self._settled = 0.0 if moves else self._settled + 1 / RATE
-        self._walks = swings or (self._walks and self._settled < SETTLING_TIME)
+        self.stands = not swings and (self.stands or self._settled >= SETTLING_TIME)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import mujoco
 
-from robot_sim.model.dimensions import Dimensions
+from robot_sim.model.dimensions import Dimensions, dimensions_of
 from robot_sim.model.joint_names import UPPER_BODY_JOINTS
 from robot_sim.model.side import SIDES, Side
 
@@ -44,9 +45,20 @@ def on_side(side: Side, joint: str, angle: float) -> float:
 
 
 def take_stance(
-    model: mujoco.MjModel, data: mujoco.MjData, size: Dimensions, x: float, y: float, yaw: float
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    x: float = 0.0,
+    y: float = 0.0,
+    yaw: float = 0.0,
+    height: float | None = None,
 ) -> None:
-    """Reset the state to standing with the pelvis at (x, y) m, heading `yaw` rad, servos holding."""
+    """Reset the state to standing with the pelvis at (x, y) m, heading `yaw` rad, servos holding.
+
+    `height`: of the pelvis, m; None: as the model has it.
+    """
+    size = dimensions_of(model)
+    if height is not None:
+        size = replace(size, stance_height=height)
     mujoco.mj_resetData(model, data)
     half = yaw / 2
     data.joint("root").qpos = [x, y, size.stance_height, math.cos(half), 0, 0, math.sin(half)]

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from robot_sim.walking.planar import clamp
-from robot_sim.walking.walking_controller import WalkingController
+
+if TYPE_CHECKING:
+    from robot_sim.g1.walker import LearnedWalker
+    from robot_sim.walking.walker import Walker
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +29,7 @@ class BodyHeight:
         rate: commanded velocity of the body, m/s, upwards.
     """
 
-    def __init__(self, walker: WalkingController, stance: float, limits: HeightLimits) -> None:
+    def __init__(self, walker: Walker | LearnedWalker, stance: float, limits: HeightLimits) -> None:
         self._walker = walker
         self._limits = limits
         self._stance = stance

@@ -9,11 +9,10 @@ from robot_sim.walking.footsteps import Command
 from robot_sim.walking.gait import Gait, Phase
 from robot_sim.walking.sensing import Sensing
 from robot_sim.walking.walker_parameters import WalkerParameters
-from robot_sim.walking.walking_controller import WalkingController
 from robot_sim.walking.whole_body import WholeBody
 
 
-class Walker(WalkingController):
+class Walker:
     """The controller that balances and walks a humanoid; make a new one whenever the state in `data` was replaced.
 
     Args:
@@ -68,9 +67,8 @@ class Walker(WalkingController):
         return self._whole_body.gains
 
     @gains.setter
-    def gains(self, gains: BalanceGains | None) -> None:
-        if gains is not None:
-            self._whole_body.gains = gains
+    def gains(self, gains: BalanceGains) -> None:
+        self._whole_body.gains = gains
 
     def follow(self, command: Command) -> None:
         """Walk to a Goal or at a Velocity; None stops."""

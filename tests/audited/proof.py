@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import re
 from collections.abc import Sequence
 from dataclasses import replace
@@ -34,6 +35,23 @@ def enough_to_prove(
         proved |= left.pop(best)
         chosen.add(best.path)
     return [known for known in submissions if known.path in chosen]
+
+
+def some_that_walk(
+    submissions: Sequence[KnownSubmission], exercise: Exercise, faulty: int
+) -> list[KnownSubmission]:
+    """Return all correct submissions, and `faulty` ones that must fail checks in which a robot walks; none without it.
+
+    The exercise's name draws the faulty ones.
+    """
+    walked = {
+        check.id for check in exercise.checks if any(scenario.robot is not None for scenario in check.on)
+    }
+    if not walked:
+        return []
+    faults = [known for known in submissions if known.kind == "faulty" and walked.issuperset(known.caught_by)]
+    drawn = random.Random(exercise.name).sample(faults, faulty)
+    return [known for known in submissions if known.kind == "correct" or known in drawn]
 
 
 def enough_to_catch(known: KnownSubmission, exercise: Exercise) -> Exercise:

@@ -22,7 +22,8 @@ def print_progress(console: Console, run: AuditedRun, *, earlier: bool = False) 
     surprises = run.surprises()
     mark, colour = ("✗", "red") if surprises else ("✓", "green")
     score = run.grade.score if run.grade.score is not None else "not graded"
-    facts = f"{score}/{run.grade.max_score}  {run.seconds:.0f} s{'  (reused)' if earlier else ''}"
+    points = f"{score}/{run.grade.max_score}  " if run.grade.max_score else ""  # none on another robot
+    facts = f"{points}{run.seconds:.0f} s{'  (reused)' if earlier else ''}"
     console.print(Text.assemble((f"{mark} ", colour), f"{run.known.name}  ", (facts, "dim")))
     for surprise in surprises:
         console.print(Text(f"    {surprise}", colour))

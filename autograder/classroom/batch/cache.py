@@ -32,11 +32,11 @@ class CachedGrade:
 
 
 def grade_key(submission: Submission, exercise: Exercise, seed: int, isolation: Isolation, *more: Any) -> str:
-    """Return a hash of everything that a grade depends on: sources, checks, seed, isolation, and `more`."""
+    """Return a hash of everything that a grade depends on: sources, checks, robots, seed, isolation, and `more`."""
     depends_on = [
         dict(submission.sources),
         checks_version(exercise.folder),
-        [check.id for check in exercise.checks],
+        [[check.id, *(scenario.robot for scenario in check.on)] for check in exercise.checks],
         seed,
         isolation.label,
     ]

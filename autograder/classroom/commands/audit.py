@@ -75,12 +75,18 @@ def audit(
         str | None,
         typer.Option(metavar="NAME", help="replace a program by a patch of the most similar correct one"),
     ] = None,
+    robot: Annotated[
+        str | None,
+        typer.Option(help="grade the submissions of walking exercises on another robot, g1 (docs/robot.md)"),
+    ] = None,
     course: CourseOption = None,
 ) -> None:
     """Grade submissions with known faults; exit status 0 only if every verdict is as expected."""
     console = Console(highlight=False)
-    if generated and (ignored := _given(context, "repeat", "to_patch")):
-        raise CourseError(f"--generated makes its own submissions: leave out {ignored}")
+    if generated and (ignored := _given(context, "repeat", "to_patch", "robot")):
+        raise CourseError(
+            f"--generated makes its own submissions, for the course's robot: leave out {ignored}"
+        )
     if mutants and not generated:
         raise CourseError("--mutants is the number of mutants to grade: add --generated")
     if resume and json_file is None:
@@ -97,6 +103,11 @@ def audit(
     earlier = read_runs(json_file) if resume and json_file else ()
     record = AuditRecord(json_file, isolation=available_isolation(), scale=scale, earlier=earlier)
     exercises = (load_exercise(name, hidden=True) for name in ([exercise] if exercise else exercise_names()))
+    if robot:
+        # imported only if needed, because it loads MuJoCo
+        from autograder.other_robot import WALKING_EXERCISES, with_robot
+
+        exercises = (with_robot(robot, one) for one in exercises if exercise or one.name in WALKING_EXERCISES)
     try:
         if generated:
             judged = [

@@ -13,7 +13,6 @@ from robot_sim.arms.arm_chain import ArmChain
 from robot_sim.arms.hand import hand_rotation
 from robot_sim.arms.inverse_kinematics import HandGoal
 from robot_sim.model.build import build_model
-from robot_sim.model.dimensions import dimensions_of
 from robot_sim.model.posture import take_stance
 from robot_sim.model.side import SIDES, Side
 
@@ -71,7 +70,7 @@ def _within_reach(
     """Return the hand's pose in a random posture in which the arm does not touch the body."""
     chain = ArmChain(model, side, with_waist)
     while True:
-        take_stance(model, data, dimensions_of(model), 0.0, 0.0, 0.0)
+        take_stance(model, data)
         data.qpos[chain.positions] = [
             chance.uniform(low + SPARE, min(high - SPARE, STRAIGHT if name.endswith("elbow") else high))
             for name, low, high in zip(chain.names, chain.low, chain.high, strict=True)
@@ -93,7 +92,7 @@ def _out_of_reach(
     oriented: bool,
 ) -> HandGoal:
     """Return a position that is too far away, or a near one with an orientation that is impossible there."""
-    take_stance(model, data, dimensions_of(model), 0.0, 0.0, 0.0)
+    take_stance(model, data)
     shoulder = data.body(f"{side.letter}_shoulder_pitch_link").xpos - data.body("pelvis").xpos
     centre = np.array([0.0, 0.0, shoulder[2]])  # the axis of the waist, as high as the shoulder
     yaw = chance.uniform(-0.5, 0.5)

@@ -9,7 +9,6 @@ import mujoco
 
 from bench.robot.trial import Attempt, Clock, Run, Summary, Trial, simulate, summary
 from robot_sim.humanoid import Humanoid
-from robot_sim.model.dimensions import dimensions_of
 from robot_sim.model.posture import take_stance
 
 
@@ -59,10 +58,9 @@ class Speed(Trial):
 def time_bare_physics(humanoid: Humanoid, length: float) -> float:
     """Return the processor seconds of mj_step alone; the robot is reset every 0.25 s, as nothing balances it."""
     steps = round(0.25 / humanoid.timestep)
-    size = dimensions_of(humanoid.model)
     cpu = 0.0
     for _ in range(round(length / 0.25)):
-        take_stance(humanoid.model, humanoid.data, size, 0.0, 0.0, 0.0)
+        take_stance(humanoid.model, humanoid.data)
         clock = Clock()
         mujoco.mj_step(humanoid.model, humanoid.data, steps)
         cpu += clock.read()

@@ -47,7 +47,7 @@ class TrialHumanoid(Humanoid):
 
     def stand_up(self) -> HeightChange:
         """Rise from any crouch to the stance; otherwise like `crouch_to`."""
-        return self.crouch_to(self.body.stance_height(self.model))
+        return self.crouch_to(self.stance_height)
 
     @property
     def body_phase(self) -> HeightPhase | None:
@@ -69,7 +69,7 @@ class TrialHumanoid(Humanoid):
             self._estimate = StateEstimate(self.model, self.data, self._imu)
         state = self._estimate.data if self._estimate else None
         self._walker = walker = walker_of(self.model, self.data, state)
-        self._height = PhasedHeight(walker, self.body.stance_height(self.model), HeightLimits())
+        self._height = PhasedHeight(walker, self.stance_height, HeightLimits())
         if self._estimate:
             self._height.before_tick = self._estimate.tick
         self._upper_body = ReachingUpperBody(self.model, self.data)

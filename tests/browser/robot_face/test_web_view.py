@@ -15,7 +15,7 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 from chromium import CHROMIUM, DRAWING, needs_chromium
-from g1 import needs_g1
+from g1 import ROBOTS
 from ros_runtime.environment import ros_environment
 from ros_runtime.ros_domain import ReservedDomain
 from view_address import view_address
@@ -103,19 +103,9 @@ def test_ctrl_c_ends_a_robot_with_a_view():
 
 
 @needs_chromium
-def test_a_browser_shows_the_robot(url):
-    see_the_robot(url)
-
-
-@needs_g1
-@needs_chromium
-def test_a_browser_shows_the_g1():
-    with viewed_robot("--robot", "g1") as (_, url):
-        see_the_robot(url)
-
-
-def see_the_robot(url):
-    with sync_playwright() as playwright:
+@pytest.mark.parametrize("robot", ROBOTS)
+def test_a_browser_shows_the_robot(robot):
+    with viewed_robot("--robot", robot) as (_, url), sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=DRAWING)
         page = browser.new_page(viewport={"width": 800, "height": 600})
         page.goto(url)

@@ -63,6 +63,10 @@ def test_other_inputs_checks_isolation_or_scale_and_another_submission_are_grade
     assert of_yesterday().earlier_run(FIRST, EXERCISE, 0, 5) is None
     assert of_yesterday().earlier_run(FIRST, visible, 0, 4) is None
     assert of_yesterday().earlier_run(CORRECT[1], EXERCISE, 0, 4) is None
+    first, *others = EXERCISE.checks
+    on_g1 = tuple(dataclasses.replace(scenario, robot=("--robot", "g1")) for scenario in first.on)
+    other_robot = dataclasses.replace(EXERCISE, checks=[dataclasses.replace(first, on=on_g1), *others])
+    assert of_yesterday().earlier_run(FIRST, other_robot, 0, 4) is None
     assert of_yesterday(Isolation(Kind.NONE, "")).earlier_run(FIRST, EXERCISE, 0, 4) is None
     assert of_yesterday(scale=1.0).earlier_run(FIRST, EXERCISE, 0, 4) is None
 

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import pytest
+from typer.testing import CliRunner
 
 from autograder.authoring.checks import MAY_REST, Scenario
 from autograder.engine.exercise import Exercise, load_exercise
-from autograder.other_robot import WALKING_EXERCISES, NotOnThisRobot, require_robot, with_robot
+from autograder.other_robot import WALKING_EXERCISES, with_robot
+from course_cli.app import app
 from g1 import needs_g1
 from robot_sim.ros.options import parse_options
+from ros_runtime.course_error import CourseError
 
 
 def scenarios_of(exercise: Exercise) -> set[Scenario]:
     return {scenario for check in exercise.checks for scenario in check.on}
 
 
+@needs_g1
 @pytest.mark.parametrize("name", WALKING_EXERCISES)
 def test_every_robot_of_the_scenarios_is_the_other_one_and_no_check_has_points(name):
     exercise = load_exercise(name, hidden=False)
@@ -30,15 +34,15 @@ def test_every_robot_of_the_scenarios_is_the_other_one_and_no_check_has_points(n
                 assert MAY_REST not in scenario.robot
 
 
-@needs_g1
-def test_only_walking_exercises_can_be_checked():
-    require_robot("g1", "walk_to")
-    with pytest.raises(
-        NotOnThisRobot, match="move_arm cannot be checked with the robot g1, which only walks"
-    ):
-        require_robot("g1", "move_arm")
-
-
-def test_an_unknown_robot_is_refused():
-    with pytest.raises(NotOnThisRobot, match="'g2' is not known"):
-        require_robot("g2", "walk_to")
+@pytest.mark.parametrize(
+    ("robot", "name", "said"),
+    [
+        ("g1", "move_arm", "move_arm cannot be checked with the robot g1, which only walks"),
+        ("g2", "walk_to", "'g2' is not known"),
+    ],
+)
+def test_another_exercise_or_an_unknown_robot_is_refused(robot, name, said):
+    with pytest.raises(CourseError, match=said):
+        with_robot(robot, load_exercise(name, hidden=False))
+    ran = CliRunner().invoke(app("audit"), ["audit", name, "--robot", robot])
+    assert (ran.exit_code, said in " ".join(ran.output.split())) == (2, True)

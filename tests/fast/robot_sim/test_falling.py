@@ -8,17 +8,22 @@ import numpy as np
 import pytest
 
 from bench.robot.trial import simulate
+from g1 import ROBOTS
 from robot_sim.humanoid import Humanoid
 from robot_sim.state import Mode
 
 
 @pytest.fixture
-def humanoid() -> Humanoid:
-    robot = Humanoid()
+def humanoid(request: pytest.FixtureRequest) -> Humanoid:
+    robot = Humanoid(robot=getattr(request, "param", "humanoid"))
     simulate(robot, 0.5)
     return robot
 
 
+on_both_robots = pytest.mark.parametrize("humanoid", ROBOTS, indirect=True)
+
+
+@on_both_robots
 @pytest.mark.parametrize("direction", np.linspace(0, 2 * math.pi, 4, endpoint=False))
 def test_it_catches_a_push_of_10_newton_seconds(humanoid, direction):
     humanoid.push((10 * math.cos(direction), 10 * math.sin(direction), 0.0))
@@ -37,13 +42,14 @@ def test_a_push_moves_it_by_its_impulse(humanoid):
     assert momentum == pytest.approx([0.0, 0.0, 19.0], abs=0.5)
 
 
+@on_both_robots
 def test_after_a_fall_it_stays_down(humanoid):
     humanoid.push((80.0, 20.0, 0.0))
     simulate(humanoid, 2.0, until=lambda: humanoid.mode is Mode.FALLEN)
     for _ in range(200):
         humanoid.step()
     assert humanoid.mode is Mode.FALLEN
-    assert humanoid.up() < 0.6 or humanoid.base_pose().position[2] < 0.38
+    assert humanoid.up() < 0.6 or humanoid.base_pose().position[2] < humanoid.body.fallen_height
     assert not humanoid.motors_enabled
     assert not humanoid.joint_state().effort.any()
     humanoid.set_motor_power(True)
@@ -68,6 +74,7 @@ def test_without_power_a_walking_robot_falls_like_a_stone_and_then_sits_on_its_l
     assert humanoid.base_pose().position[2] > 0.24  # the stone is at 0.16 m
 
 
+@on_both_robots
 def test_without_motor_power_it_collapses_and_falls(humanoid):
     humanoid.set_motor_power(False)
     humanoid.step()

@@ -9,12 +9,16 @@ import numpy as np
 import pytest
 
 from bench.robot.trial import simulate
+from g1 import needs_g1
 from robot_sim.humanoid import Humanoid
 from robot_sim.model.side import Side
 from robot_sim.ros.options import RobotOptions
 from robot_sim.ros.serve import build_humanoid
 
-SCENES = ("flat", "stand")
+in_each_scene = pytest.mark.parametrize(
+    ("robot", "scene"),
+    [("humanoid", "flat"), ("humanoid", "stand"), pytest.param("g1", "flat", marks=needs_g1)],
+)
 
 
 def trace(humanoid: Humanoid) -> str:
@@ -25,7 +29,8 @@ def trace(humanoid: Humanoid) -> str:
             humanoid.walk_velocity(0.3, 0.05, 0.2)
         elif tick == 450:
             humanoid.stop()
-            humanoid.open_hand(Side.LEFT, 0.05)
+            if humanoid.hands:
+                humanoid.open_hand(Side.LEFT, 0.05)
         humanoid.step()
         battery, imu = humanoid.battery, humanoid.imu()
         seen.update(humanoid.data.qpos.tobytes() + humanoid.data.qvel.tobytes())
@@ -48,13 +53,13 @@ def use(humanoid: Humanoid) -> None:
     humanoid.step()
 
 
-@pytest.mark.parametrize("scene", SCENES)
-def test_a_used_robot_that_is_reset_is_a_fresh_one(scene):
-    used = Humanoid(scene, seed=1)
+@in_each_scene
+def test_a_used_robot_that_is_reset_is_a_fresh_one(robot, scene):
+    used = Humanoid(scene, seed=1, robot=robot)
     use(used)
     used.seed = 4
     used.reset()
-    assert trace(used) == trace(Humanoid(scene, seed=4))
+    assert trace(used) == trace(Humanoid(scene, seed=4, robot=robot))
 
 
 def test_a_used_robot_can_be_reset_into_a_crouch():
@@ -64,10 +69,11 @@ def test_a_used_robot_can_be_reset_into_a_crouch():
     assert trace(used) == trace(build_humanoid(RobotOptions(crouch=True)))
 
 
-@pytest.mark.parametrize("scene", SCENES)
-def test_a_robot_built_before_a_fork_is_a_fresh_one(scene):
-    built = build_humanoid(RobotOptions(scene=scene, seed=3))
-    assert traced_in_a_fork(built) == traced_in_a_fork(built) == trace(Humanoid(scene, seed=3))
+@in_each_scene
+def test_a_robot_built_before_a_fork_is_a_fresh_one(robot, scene):
+    built = build_humanoid(RobotOptions(robot=robot, scene=scene, seed=3))
+    fresh = trace(Humanoid(scene, seed=3, robot=robot))
+    assert traced_in_a_fork(built) == traced_in_a_fork(built) == fresh
 
 
 def traced_in_a_fork(built: Humanoid) -> str:

@@ -1,13 +1,11 @@
-"""The G1 is a robot like the course's own: it walks as it is told, and falls."""
+"""What only the G1 does, beside what the other tests try on both robots."""
 
 from __future__ import annotations
-
-import math
 
 import numpy as np
 import pytest
 
-from bench.robot.trial import base_speed, simulate
+from bench.robot.trial import simulate
 from bench.robot.walking import Speeds
 from g1 import needs_g1
 from robot_sim.humanoid import Humanoid
@@ -21,18 +19,6 @@ pytestmark = needs_g1
 @pytest.fixture
 def robot() -> Humanoid:
     return Humanoid(robot="g1")
-
-
-def test_it_stands_still(robot):
-    simulate(robot, 2.0)
-    speeds = []
-    for _ in range(1000):
-        robot.step()
-        speeds.append(base_speed(robot))
-    assert robot.mode is Mode.STANDING
-    assert robot.steps == 0
-    assert max(speeds) < 0.02
-    assert robot.base_pose().position == pytest.approx([0.0, 0.0, 0.76], abs=0.04)
 
 
 @pytest.mark.parametrize("case", Speeds("g1").cases(quick=True), ids=str)
@@ -49,75 +35,23 @@ def test_it_keeps_its_heading_and_counts_two_steps_a_second(robot):
     assert robot.steps == pytest.approx(20, abs=2)
 
 
-def test_a_command_beyond_its_limits_is_clamped(robot):
-    robot.walk_velocity(5.0, 0.0, 0.0)
-    simulate(robot, 3.0)
-    start = robot.base_pose().position[0]
-    simulate(robot, 5.0)
-    assert (robot.base_pose().position[0] - start) / 5.0 == pytest.approx(robot.body.limits.forward, rel=0.1)
-
-
-@pytest.mark.parametrize("phase", np.arange(0.0, 1.0, 0.25))
-def test_it_stops_within_two_seconds_and_stands(robot, phase):
-    robot.walk_velocity(0.4, 0.0, 0.0)
-    simulate(robot, 3.0 + phase)
-    robot.stop()
-    assert simulate(robot, 2.0, until=lambda: robot.mode is Mode.STANDING)
-    speeds = []
-    for _ in range(1000):
-        robot.step()
-        speeds.append(base_speed(robot))
-    assert max(speeds) < 0.05
-
-
-def test_it_withstands_a_push_and_falls_by_a_strong_one(robot):
-    robot.walk_velocity(0.25, 0.0, 0.0)
-    simulate(robot, 2.0)
-    robot.push((0.0, 14.0, 0.0))
-    simulate(robot, 4.0)
-    assert robot.mode is Mode.WALKING
-    robot.push((0.0, 60.0, 0.0))
-    simulate(robot, 3.0)
-    assert robot.mode is Mode.FALLEN
-    robot.set_motor_power(True)
-    assert not robot.motors_enabled
-    robot.reset()
-    simulate(robot, 1.0)
-    assert robot.mode is Mode.STANDING
-
-
-def test_without_power_it_collapses_onto_the_floor(robot):
+def test_without_power_all_its_parts_come_to_lie_on_the_floor(robot):
     robot.set_motor_power(False)
-    assert robot.mode is Mode.OFF
     for _ in range(1500):
         robot.step()
-    assert robot.mode is Mode.FALLEN
     assert all(0.0 < height < 0.4 for height in robot.data.xpos[1:, 2])
 
 
-def test_power_that_comes_back_in_time_lets_it_stand(robot):
-    simulate(robot, 1.0)
+def test_power_that_comes_back_in_time_lets_it_walk_on(robot):
+    robot.walk_velocity(0.2, 0.0, 0.0)
+    simulate(robot, 2.0)
+    steps = robot.steps
     robot.set_motor_power(False)
     simulate(robot, 0.02)
     robot.set_motor_power(True)
     simulate(robot, 3.0)
     assert robot.mode is Mode.STANDING
-    robot.walk_velocity(0.2, 0.0, 0.0)
-    simulate(robot, 0.1)
-    assert robot.mode is Mode.WALKING
-
-
-def test_an_empty_battery_switches_it_off(robot):
-    robot.battery.set_percentage(0.0)
-    robot.step()
-    assert robot.mode is Mode.OFF
-
-
-def test_the_same_commands_give_the_same_motion(robot):
-    for each in (robot, other := Humanoid(robot="g1")):
-        each.walk_velocity(0.2, 0.05, 0.3)
-        simulate(each, 2.0)
-    assert (robot.data.qpos == other.data.qpos).all()
+    assert robot.steps >= steps > 0
 
 
 def test_a_resting_robot_is_simulated_because_its_walker_always_acts(robot):
@@ -146,8 +80,6 @@ def test_its_sensors_have_the_axes_of_base_link(robot):
     assert robot.imu().linear_acceleration == pytest.approx([0.0, 0.0, 9.81], abs=0.6)
     weight = 9.81 * robot.model.body_mass.sum()
     assert sum(foot.read().force[2] for foot in robot.feet.values()) == pytest.approx(weight, rel=0.1)
-    assert len(robot.joint_state().names) == 29
-    assert math.isfinite(robot.battery.voltage)
 
 
 @pytest.mark.parametrize("camera", ["track", "side", "front"])

@@ -14,13 +14,14 @@ from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
+from g1 import ROBOTS
 from humanoid_interfaces.msg import RobotState
 from humanoid_interfaces.srv import SetFloat64
 
 
 @pytest.fixture
-def robot():
-    with running_robot() as listener:
+def robot(request):
+    with running_robot("--robot", getattr(request, "param", "humanoid")) as listener:
         yield listener
 
 
@@ -55,6 +56,7 @@ def test_only_a_paused_simulation_is_stepped(robot):
     assert "expected more than 0" in number(robot, "step_simulation", -1.0).message
 
 
+@pytest.mark.parametrize("robot", ROBOTS, indirect=True)
 def test_reset_stands_the_fallen_robot_up_at_the_origin(robot):
     robot.publish(Vector3(x=90.0), "/sim/push")
     robot.one(RobotState, "robot_state", LATCHED, until=lambda state: state.mode == RobotState.FALLEN)

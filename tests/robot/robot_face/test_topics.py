@@ -1,6 +1,6 @@
-"""The robot's topics, rates, frames and commands, used by another node.
+"""The robots' topics, rates, frames and commands, used by another node.
 
-One robot serves the tests that leave it standing.
+One robot of each kind serves the tests that leave it standing.
 """
 
 import math
@@ -15,18 +15,25 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import BatteryState, Imu, JointState
 from std_msgs.msg import Bool
 
-from humanoid_interfaces.msg import RobotState
+from g1 import ROBOTS
+from humanoid_interfaces.msg import JointLimits, RobotState
+from humanoid_interfaces.srv import ComputeArmIK
+
+
+@pytest.fixture(scope="module", params=ROBOTS)
+def kind(request):
+    return request.param
 
 
 @pytest.fixture(scope="module")
-def robot():
-    with running_robot() as listener:
+def robot(kind):
+    with running_robot("--robot", kind) as listener:
         yield listener
 
 
 @pytest.fixture
-def robot_that_may_fall():
-    with running_robot() as listener:
+def robot_that_may_fall(kind):
+    with running_robot("--robot", kind) as listener:
         yield listener
 
 
@@ -59,13 +66,14 @@ def test_a_late_subscriber_still_gets_battery_and_state(robot):
     assert (state.mode, state.motors_enabled) == (RobotState.STANDING, True)
 
 
-def test_odom_is_the_pelvis_in_odom(robot):
+def test_odom_is_the_pelvis_in_odom(robot, kind):
     odometry = robot.one(Odometry, "odom")
     assert (odometry.header.frame_id, odometry.child_frame_id) == ("odom", "base_link")
-    assert odometry.pose.pose.position.z == pytest.approx(0.6, abs=0.03)
+    stance = {"humanoid": 0.60, "g1": 0.76}[kind]  # m
+    assert odometry.pose.pose.position.z == pytest.approx(stance, abs=0.03)
 
 
-def test_joint_states_name_every_joint_once(robot):
+def test_joint_states_name_every_joint_once(robot, kind):
     joints = robot.one(JointState, "joint_states", qos_profile_sensor_data)
     assert (
         len(set(joints.name))
@@ -74,7 +82,18 @@ def test_joint_states_name_every_joint_once(robot):
         == len(joints.velocity)
         == len(joints.effort)
     )
-    assert {"l_knee", "r_knee", "waist_yaw", "l_elbow", "r_shoulder_pitch"} <= set(joints.name)
+    some = {
+        "humanoid": {"l_knee", "r_knee", "waist_yaw", "l_elbow", "r_shoulder_pitch"},
+        "g1": {"left_knee_joint", "right_hip_pitch_joint", "waist_yaw_joint", "left_elbow_joint"},
+    }
+    assert some[kind] <= set(joints.name)
+
+
+def test_a_trajectory_can_move_joints_only_if_the_walker_leaves_some(robot, kind):
+    limits = robot.one(JointLimits, "joint_limits", LATCHED)
+    answer = robot.call(ComputeArmIK, "compute_arm_ik", ComputeArmIK.Request(arm="l"))
+    refused = answer.message == "this robot's arms cannot be commanded"
+    assert (len(limits.names) == 0, refused) == (kind == "g1", kind == "g1")
 
 
 def test_the_imu_measures_gravity(robot):
