@@ -40,9 +40,9 @@ def enough_to_prove(
 def some_that_walk(
     submissions: Sequence[KnownSubmission], exercise: Exercise, faulty: int
 ) -> list[KnownSubmission]:
-    """Return all correct submissions, and `faulty` ones that must fail checks in which a robot walks; none without it.
+    """Return a correct submission, and `faulty` ones that must fail checks in which a robot walks; none without it.
 
-    The exercise's name draws the faulty ones.
+    The exercise's name draws them.
     """
     walked = {
         check.id for check in exercise.checks if any(scenario.robot is not None for scenario in check.on)
@@ -50,8 +50,9 @@ def some_that_walk(
     if not walked:
         return []
     faults = [known for known in submissions if known.kind == "faulty" and walked.issuperset(known.caught_by)]
-    drawn = random.Random(exercise.name).sample(faults, faulty)
-    return [known for known in submissions if known.kind == "correct" or known in drawn]
+    draw = random.Random(exercise.name)
+    correct = [known for known in submissions if known.kind == "correct"]
+    return [draw.choice(correct), *draw.sample(faults, faulty)]
 
 
 def enough_to_catch(known: KnownSubmission, exercise: Exercise) -> Exercise:
