@@ -111,7 +111,8 @@ def _syntax_error(submission: Submission) -> str:
     for name, text in submission.sources.items():
         try:
             if name.endswith(".py"):
-                with warnings.catch_warnings(action="ignore"):
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
                     compile(text, name, "exec", dont_inherit=True)
         except SyntaxError as error:
             return f"line {error.lineno} of {name}: {error.msg}"

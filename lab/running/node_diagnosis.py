@@ -44,7 +44,7 @@ _FOLDER = re.compile(r'(?<=File ")[^"]*/(?=\w+\.py")')
 _PLACE = re.compile(r"line (\d+) of (\w+\.py)")
 _ERROR = re.compile(r"^[\w.]*(?:Error|Exception)\b.*", re.MULTILINE)
 _EMPTY_PLACE = re.compile(
-    r"^(?P<indent> *)# YOUR CODE HERE.*\n(?: *(?:#.*)?\n)*+(?:(?P=indent)return \w+$|(?!(?P=indent)))",
+    r"^(?P<indent> *)# YOUR CODE HERE.*\n(?: *(?:#.*)?\n)*(?! *(?:#|\n))(?:(?P=indent)return \w+$|(?!(?P=indent)))",
     re.MULTILINE,
 )
 
