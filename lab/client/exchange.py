@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from contextlib import nullcontext
 from typing import Any
 
 from lab.client import topics
@@ -12,6 +13,7 @@ from lab.client.interaction_log import log
 from lab.client.messages import GaveUp
 from lab.client.waiting import becomes_true
 from lab.errors import NoAnswerError, NoServerError, NotInTimeError
+from lab.notices import notice
 from lab.running.node_diagnosis import (
     server_of,
     what_is_to_be_written,
@@ -24,6 +26,7 @@ from ros_runtime.recorded_client.goal import Cancel, Goal
 from ros_runtime.recorded_client.service_client import Call
 
 TIME_TO_END = 1.0  # s; long enough for a node to end after an exception
+LIES = "The robot lies, so this waits in vain for all that only a standing robot does. lab.restart_robot() sets it up."
 MATCHING_TIME = 0.1  # s until the server has discovered the client, too; otherwise its answer could be lost
 
 
@@ -35,12 +38,13 @@ def wait_until(
 ) -> None:
     """Block until `condition()` is true; `what` names the condition in the error, which shows `seen()` instead.
 
-    Raises NotInTimeError after `timeout` s; it also says if the robot lies, why nodes have ended, and what is
-    still to be written in one that runs.
+    A notice is shown if the robot lies at the beginning. Raises NotInTimeError after `timeout` s; it also says if the
+    robot lies, why nodes have ended, and what is still to be written in one that runs.
     """
     began = time.monotonic()
-    if becomes_true(condition, timeout):
-        return
+    with notice(LIES) if topics.fell_at() else nullcontext():
+        if becomes_true(condition, timeout):
+            return
     message = f"{what}: not within {timeout:g} s" + (f", but {seen()!r}" if seen else "")
     if fell := topics.fell_at():
         when = f"{abs(fell - began):.1f} s {'after' if fell > began else 'before'} this wait began"
