@@ -142,7 +142,7 @@ def check_with_progress(
         )
         console.print(said, style="yellow", markup=False)
     table = _notebook_table(loaded) if Console().is_jupyter else None
-    with RunningLine(console, in_notebook=table is not None) as line:
+    with RunningLine(console, loaded.checks, in_notebook=table is not None) as line:
 
         def report(verdict: CheckVerdict) -> None:
             with line.aside():

@@ -144,6 +144,7 @@ class Stage(Offering):
 
     def interrupt_node(self) -> None:
         """Send SIGINT, as Ctrl-C does, and wait for the process to end."""
+        self._student.record_where_it_waits()
         self._log.append(ev.NodeSignalled(signal="SIGINT"))
         self._student.interrupt()
         self._student.wait(CLEAN_EXIT_TIMEOUT)

@@ -13,9 +13,12 @@ from autograder.arena.student_limits_monitor import StudentLimitsMonitor
 from autograder.isolation.student_process import StudentProcess
 from autograder.isolation.student_sandbox import Program
 from ros_runtime.environment import ros_environment
+from ros_runtime.workarounds.rclpy_repairs.hook import STACK_FILE
 from ros_runtime.workarounds.scaled_clock.clock import ScaledClock
 
-ABORT_TIMEOUT = 0.5  # s of real time for faulthandler to print the stacks
+ABORT_TIMEOUT = 0.5  # s of real time for faulthandler to print the stacks, and for the program's end
+PRINT_TIME = 0.2  # s of real time for faulthandler to print the stacks
+STDERR = "2"  # its descriptor
 LONGEST_STACK, LONGEST_LINE = 200, 200  # lines, characters
 
 
@@ -29,7 +32,7 @@ class Student:
         self._process: StudentProcess | None = None
         self._watch: StudentLimitsMonitor | None = None
         self._closing = threading.Event()
-        self._stack: list[str] | None = None  # lines of output since the abort; None before
+        self._stack: list[str] | None = None  # lines of stderr while it prints its stacks
 
     def start(self, arguments: Sequence[str] = ()) -> None:
         """Run the student's program as a ROS node in the robot's namespace."""
@@ -46,6 +49,15 @@ class Student:
     def has_exited(self) -> bool:
         """Return whether the program has ended, with its exit and all its output in the log."""
         return self._log.count(ev.NodeExited) > 0
+
+    def record_where_it_waits(self) -> None:
+        """Record the stacks of a server that has not answered a call; it goes on, and Ctrl-C may end its callback."""
+        if self._process and self._log.count(ev.Unanswered, what="call") and not self.has_exited():
+            self._stack = []
+            self._process.print_stacks()
+            self._process.wait(PRINT_TIME * self._clock.scale)
+            stack, self._stack = self._stack, None
+            self._log.append(ev.NodeStack(lines=stack[:LONGEST_STACK]))
 
     def interrupt(self) -> None:
         """Send SIGINT, as Ctrl-C does."""
@@ -79,7 +91,7 @@ class Student:
         if self._process and self._watch:
             self._watch.report()
             silent = self._log.count(ev.Unanswered) or self._log.count(ev.NodeSignalled)
-            if silent and not self.has_exited():
+            if silent and not self.has_exited() and not self._log.count(ev.NodeStack):
                 self._record_stack(self._process)
             self._process.kill()
 
@@ -95,7 +107,12 @@ class Student:
         program = Program(
             arguments,
             files,
-            env={**ros_environment(), **self._clock.environment(), "PYTHONFAULTHANDLER": "1"},
+            env={
+                **ros_environment(),
+                **self._clock.environment(),
+                "PYTHONFAULTHANDLER": "1",
+                STACK_FILE: STDERR,
+            },
             read_only_paths=[*self._spec.student_paths, self._clock.path],
             builds=builds,
         )
@@ -112,7 +129,7 @@ class Student:
         self._log.append(ev.NodeStack(lines=self._stack[:LONGEST_STACK]))
 
     def _on_line(self, t: float, stream: str, text: str) -> None:
-        if self._stack is not None:
+        if self._stack is not None and stream == "stderr":
             self._stack.append(text[:LONGEST_LINE])
             return
         self._log.append(ev.NodeOutput(t=t, stream="stderr" if stream == "stderr" else "stdout", text=text))

@@ -156,9 +156,7 @@ def exercise_module(exercise: str, module: str = "") -> ModuleType:
     """
     folder = exercises_folder()
     if exercise not in all_names():
-        raise UnknownExercise(
-            f"there is no exercise {exercise!r} in {folder}; there are {', '.join(all_names())}"
-        )
+        raise UnknownExercise(f"there is no exercise {exercise!r}; there are {', '.join(all_names())}")
     try:
         return importlib.import_module(".".join(filter(None, (_package(folder), exercise, module))))
     except Exception as error:  # whatever an author's module can raise

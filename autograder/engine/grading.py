@@ -1,8 +1,8 @@
 """Grades one submission: runs the scenarios that its checks need, judges the transcripts, gives each check a verdict.
 
 A failed check is retried in a second arena and costs points only if it fails again: middleware and machines fail now
-and then, but a fault of the submission shows every time. A check without the evidence that it needs is retried on
-slower clocks, before it counts as not graded.
+and then, but a fault of the submission shows every time. A program that Python cannot compile is not retried. A check
+without the evidence that it needs is retried on slower clocks, before it counts as not graded.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass, replace
 
 from autograder.authoring.checks import Check, Scenario
+from autograder.authoring.diagnosis.exit_diagnosis import is_not_python
 from autograder.authoring.diagnosis.root_cause import why_the_robot_was_held_up
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.sequence import STEPS, steps_until
@@ -267,7 +268,9 @@ class _Session:
             is_last_attempt=attempt + 1 >= MOST_ATTEMPTS["error"],
             others_failed=any(other.status == "failed" for other in self._verdicts.values()),
         )
-        no_retry = verdict.status == "failed" and check.id in self._options.checks_without_retry
+        no_retry = verdict.status == "failed" and (
+            check.id in self._options.checks_without_retry or any(map(is_not_python, transcripts))
+        )
         if verdict.status != "passed" and not no_retry:
             again = failed_scenarios(check, transcripts)
             for scenario in again:

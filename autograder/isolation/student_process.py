@@ -20,6 +20,7 @@ from contextlib import ExitStack, suppress
 from autograder.isolation.captured_output import CapturedOutput, OutputPump
 from autograder.isolation.running_program import RunningProgram
 from autograder.isolation.student_sandbox import Program, start_program
+from ros_runtime.workarounds.rclpy_repairs.hook import STACK_SIGNAL
 
 _POLL = 0.2  # s between two checks while nothing is printed
 _LAST_WORDS = 2.0  # s for output that is still in the pipes of an ended program
@@ -95,6 +96,10 @@ class StudentProcess:
     def abort(self) -> None:
         """Send SIGABRT to the program itself: it ends; with PYTHONFAULTHANDLER it first prints its threads' stacks."""
         self._running.signal(signal.SIGABRT)
+
+    def print_stacks(self) -> None:
+        """Have a Python program with the variable STACK_FILE print its threads' stacks; it goes on."""
+        self._running.signal(signal.Signals(STACK_SIGNAL))
 
     def terminate(self) -> None:
         """Send SIGTERM to the program itself."""

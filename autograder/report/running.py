@@ -1,4 +1,4 @@
-"""A status line with the running scenarios, below the verdicts."""
+"""A status line with the checks whose scenarios run, below the verdicts."""
 
 from __future__ import annotations
 
@@ -9,14 +9,15 @@ from types import TracebackType
 from rich.console import Console
 from rich.status import Status
 
-from autograder.authoring.checks import Scenario
+from autograder.authoring.checks import Check, Scenario
 
 
 class RunningLine:
     """A status line: in a terminal the last line, in a notebook an overwritten line, elsewhere a line per change."""
 
-    def __init__(self, console: Console, *, in_notebook: bool = False) -> None:
+    def __init__(self, console: Console, checks: Sequence[Check], *, in_notebook: bool = False) -> None:
         self._console = console
+        self._checks = checks
         self._in_notebook = in_notebook
         self._status = Status("", console=console) if console.is_terminal and not in_notebook else None
         self._shown = ""
@@ -30,9 +31,9 @@ class RunningLine:
         self.show([])
 
     def show(self, scenarios: Sequence[Scenario]) -> None:
-        """Show the names of the running scenarios; none removes the line."""
-        names = ", ".join(dict.fromkeys(scenario.name.replace("_", " ") for scenario in scenarios))
-        text = f"running: {names}" if names else ""
+        """Show the title of the first check of each running scenario; none removes the line."""
+        titles = [next(check.title for check in self._checks if each in check.on) for each in scenarios]
+        text = f"checking: {'; '.join(dict.fromkeys(titles))}" if titles else ""
         if text == self._shown:
             return
         if self._status:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from contextlib import nullcontext
 from typing import Any
 
 from lab.client import topics
@@ -12,11 +13,20 @@ from lab.client.interaction_log import log
 from lab.client.messages import GaveUp
 from lab.client.waiting import becomes_true
 from lab.errors import NoAnswerError, NoServerError, NotInTimeError
-from lab.running.node_diagnosis import server_of, why_not_offered, why_silent, why_they_ended
+from lab.notices import notice
+from lab.running.node_diagnosis import (
+    server_of,
+    what_is_to_be_written,
+    why_not_offered,
+    why_silent,
+    why_they_ended,
+)
 from lab.running.student_nodes import StudentNode, started_nodes
 from ros_runtime.recorded_client.goal import Cancel, Goal
 from ros_runtime.recorded_client.service_client import Call
 
+TIME_TO_END = 1.0  # s; long enough for a node to end after an exception
+LIES = "The robot lies, so this waits in vain for all that only a standing robot does. lab.restart_robot() sets it up."
 MATCHING_TIME = 0.1  # s until the server has discovered the client, too; otherwise its answer could be lost
 
 
@@ -28,16 +38,19 @@ def wait_until(
 ) -> None:
     """Block until `condition()` is true; `what` names the condition in the error, which shows `seen()` instead.
 
-    Raises NotInTimeError after `timeout` s; it also says if the robot lies, and why nodes have ended.
+    A notice is shown if the robot lies at the beginning. Raises NotInTimeError after `timeout` s; it also says if the
+    robot lies, why nodes have ended, and what is still to be written in one that runs.
     """
     began = time.monotonic()
-    if becomes_true(condition, timeout):
-        return
+    with notice(LIES) if topics.fell_at() else nullcontext():
+        if becomes_true(condition, timeout):
+            return
     message = f"{what}: not within {timeout:g} s" + (f", but {seen()!r}" if seen else "")
     if fell := topics.fell_at():
         when = f"{abs(fell - began):.1f} s {'after' if fell > began else 'before'} this wait began"
         message += f". The robot lies: it fell {when}. lab.restart_robot() sets it up again."
-    raise NotInTimeError(message + why_they_ended(started_nodes()))
+    nodes = started_nodes()
+    raise NotInTimeError(message + (why_they_ended(nodes) or what_is_to_be_written(nodes)))
 
 
 def require_server(is_ready: Callable[[], bool], name: str, interface: Any, timeout: float) -> None:
@@ -76,4 +89,6 @@ def no_answer(name: str, what_is_known: str, why: Callable[[StudentNode], str] =
     """Return the error for a missing answer: `why` the server of `name` gives none, and why other nodes have ended."""
     nodes = started_nodes()
     server = server_of(nodes, name)
+    if server and server.process.wait(TIME_TO_END):
+        server = None  # the reason is in why_they_ended
     return NoAnswerError(what_is_known + (f"\n{why(server)}" if server else "") + why_they_ended(nodes))

@@ -112,7 +112,7 @@ def _require_python(file: str, program: str) -> None:
         compile(program, file, "exec")
     except SyntaxError as problem:
         line = (problem.text or "").strip()
-        raise GapError(f"{file}: {problem.msg}: `{line}`") from None
+        raise GapError(f"{file}: {problem.msg} in line {problem.lineno}: `{line}`") from None
 
 
 def _name_syntax_error(result: Any) -> None:

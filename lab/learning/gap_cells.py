@@ -14,6 +14,7 @@ _GAP = re.compile(
     rf"^(?P<indent> *)# YOUR CODE HERE.*\n(?: *#.*\n)*(?P=indent)(?:{PLACEHOLDER}.*|{re.escape(IN_A_DEFINITION)})\n",
     re.MULTILINE,
 )
+_PLACEHOLDER_LINE = re.compile(rf"^ *{PLACEHOLDER}\b", re.MULTILINE)
 _SOLUTION = re.compile(r"<details>.*?```\w+\n(?P<lines>.*?)```.*?</details>", re.DOTALL)
 
 
@@ -28,8 +29,8 @@ def placeholder(file: str) -> str:
 
 
 def is_empty(program: str) -> bool:
-    """Whether the gap still contains its placeholder."""
-    return _GAP.search(program) is not None
+    """Whether the gap still contains its placeholder; of a Python program, also without the comment above it."""
+    return bool(_GAP.search(program) or _PLACEHOLDER_LINE.search(program))
 
 
 def fill(program: str, lines: str) -> str:

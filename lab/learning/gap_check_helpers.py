@@ -10,14 +10,13 @@ from pathlib import Path
 from typing import Any
 
 from autograder.authoring.diagnosis.exit_diagnosis import remedy_for_a_traceback
+from lab.client.exchange import TIME_TO_END
 from lab.client.services import call
-from lab.client.waiting import becomes_true
 from lab.errors import NoAnswerError
 from lab.learning.gap import not_yet
 from lab.running.node_diagnosis import why_silent
 from lab.running.student_nodes import StudentNode
 
-TO_END = 1.0  # s; long enough for a node to exit after an exception
 NO_HINTS: Mapping[str, str] = {}
 
 
@@ -39,7 +38,7 @@ def call_student_service(
         return call(name, service_type, request)
     except NoAnswerError:
         pass
-    ended = becomes_true(lambda: not server.is_running, TO_END)
+    ended = server.process.wait(TIME_TO_END)
     reason = last_error_or_line(server.log(), server.file.name)
     advice = advice_on(server.log(), reason, hints) if ended else why_silent(server)
     seen = f"no response within 2 s; the node {f'has ended: {reason}' if ended else 'still runs'}"
@@ -58,10 +57,10 @@ def last_error(log: str, file: str) -> str:
     """Return the last exception in a log, with the line of the student's `file` that raised it; "" if there is none."""
     errors = re.findall(r"^[\w.]*(?:Error|Exception)\b.*", log, re.MULTILINE)
     traceback = log.rpartition("Traceback (most recent call last):")[2]
-    frames = re.findall(r'File "([^"]+)", line \d+, in (.+)\n +(.+)', traceback)
+    frames = re.findall(r'File "([^"]+)", line (\d+), in (.+)\n +(.+)', traceback)
     own = [index for index, (path, *_) in enumerate(frames) if Path(path).name == file]
-    spins = own and any(function.startswith("spin") for _, function, _ in frames[own[-1] + 1 :])
-    where = f" in `{frames[own[-1]][2]}`" if own and not spins else ""
+    spins = own and any(function.startswith("spin") for *_, function, _ in frames[own[-1] + 1 :])
+    where = " in line {1} (`{3}`)".format(*frames[own[-1]]) if own and not spins else ""
     return f"{errors[-1]}{where}" if errors else ""
 
 
@@ -89,7 +88,7 @@ def run_student_code(code: Callable[[], Any], file: str, *, hints: Mapping[str, 
         return code()
     except Exception as problem:
         lines = [f for f in traceback.extract_tb(problem.__traceback__) if Path(f.filename).name == file]
-        where = f" in `{lines[-1].line}`" if lines else ""
+        where = f" in line {lines[-1].lineno} (`{lines[-1].line}`)" if lines else ""
         error = type(problem).__name__
         advice = next((hints[part] for part in hints if part in error), "fix the error that is named here")
         raise not_yet(f"{error}: {problem}{where}", "no exception", advice) from None

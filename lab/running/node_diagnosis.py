@@ -10,9 +10,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from autograder.authoring.diagnosis.blocked_callback import remedy_for_no_answer
-from autograder.authoring.diagnosis.exit_diagnosis import remedy_for_the_end, unanswered_service
+from autograder.authoring.diagnosis.exit_diagnosis import (
+    remedy_for_a_traceback,
+    remedy_for_the_end,
+    unanswered_service,
+)
 from autograder.authoring.diagnosis.goal_diagnosis import why_no_result, why_rclpy_aborted
 from autograder.authoring.diagnosis.readiness import require_ready
+from autograder.authoring.diagnosis.stack_location import where_it_waited
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
@@ -37,12 +42,29 @@ _OF_OTHERS = (
 _FRAME = re.compile(r'^  File "([^"]+)", line \d+.*\n(?:    .*\n)*', re.MULTILINE)
 _FOLDER = re.compile(r'(?<=File ")[^"]*/(?=\w+\.py")')
 _PLACE = re.compile(r"line (\d+) of (\w+\.py)")
+_ERROR = re.compile(r"^[\w.]*(?:Error|Exception)\b.*", re.MULTILINE)
+_EMPTY_PLACE = re.compile(
+    r"^(?P<indent> *)# YOUR CODE HERE.*\n(?: *(?:#.*)?\n)*(?! *(?:#|\n))(?:(?P=indent)return \w+$|(?!(?P=indent)))",
+    re.MULTILINE,
+)
 
 
 def why_they_ended(nodes: Iterable[StudentNode]) -> str:
     """Return why nodes ended with an error, each in a line; "" if none did."""
-    ended = [node for node in nodes if node.exit_status and not node.was_stopped]
-    return "".join(f"\n{node.file.name} has ended {how_it_ended(node)}" for node in ended)
+    return "".join(
+        f"\n{node.file.name} has ended {how_it_ended(node)}" for node in nodes if _has_failed(node)
+    )
+
+
+def what_is_to_be_written(nodes: Iterable[StudentNode]) -> str:
+    """Return where nothing is written yet below `# YOUR CODE HERE` in running nodes, each in a line; "" if nowhere."""
+    places = ((node.file.name, _empty_places(node.file)) for node in nodes if node.is_running)
+    return "".join(
+        f"\n{name} is as the starter leaves it below `# YOUR CODE HERE` in line {' and '.join(lines)}: "
+        "write your code there."
+        for name, lines in places
+        if lines
+    )
 
 
 def how_it_ended(node: StudentNode) -> str:
@@ -72,8 +94,14 @@ def why_not_offered(node: StudentNode, name: str, *, is_action: bool) -> str:
 
 
 def why_silent(server: StudentNode) -> str:
-    """Return why a running server does not answer."""
-    return _with_code(remedy_for_no_answer(_record(server, _stack(server))).help, server)
+    """Return why a running server does not answer: a blocked thread, or an exception that has not ended it."""
+    run = _record(server, _stack(server))
+    if "Traceback (most recent call last)" in server.log() and not where_it_waited(run):
+        remedy = remedy_for_a_traceback(server.log())
+        errors = _ERROR.findall(server.log()) or ["an exception"]
+        help = f" {remedy.help}" if remedy else ""
+        return f"{server.file.name} still runs, but has printed {errors[-1]}.{help}"
+    return _with_code(remedy_for_no_answer(run).help, server)
 
 
 def why_unfinished(server: StudentNode, goal: str) -> str:
@@ -89,11 +117,27 @@ def why_aborted(nodes: Iterable[StudentNode], action: str, goal: str) -> str:
 
 
 def server_of(nodes: Iterable[StudentNode], name: str) -> StudentNode | None:
-    """Return the running node that offers a service or action; if none is known to, the only one that runs, or None."""
+    """Return the running node that offers a service or action; None if it has ended.
+
+    If no node is known to offer it, the only one that runs does, unless another has ended with an error.
+    """
     wanted = connection().node.resolve_service_name(name)
+    nodes = list(nodes)
     running = [node for node in nodes if node.is_running]
-    offering = [node for node in running if wanted in _offered_by(node)] or running
+    offering = [node for node in running if wanted in _offered_by(node)]
+    if not offering and not any(map(_has_failed, nodes)):
+        offering = running
     return offering[0] if len(offering) == 1 else None
+
+
+def _has_failed(node: StudentNode) -> bool:
+    return bool(node.exit_status) and not node.was_stopped
+
+
+def _empty_places(file: Path) -> list[str]:
+    """Return the numbers of the lines `# YOUR CODE HERE` that no line of the student follows."""
+    program = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
+    return [str(program.count("\n", 0, place.start()) + 1) for place in _EMPTY_PLACE.finditer(program)]
 
 
 def _offered_by(node: StudentNode) -> dict[str, str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
+from autograder.authoring.diagnosis.exit_diagnosis import remedy_for_a_traceback
 from lab.client.connection import connection
 from lab.running.processes import Process, ProcessHistory
 from lab.running.student_nodes import existing_file, in_namespace
@@ -101,7 +102,8 @@ class Program:
 
     def __str__(self) -> str:
         lines = (self.stdout + self.stderr).splitlines()
-        return "\n    ".join([repr(self), *lines])
+        remedy = remedy_for_a_traceback(self.stderr) if self.exit_status else None
+        return "\n    ".join([repr(self), *lines]) + (f"\n{remedy.help}" if remedy else "")
 
     def _state(self) -> str:
         if self.stopped:

@@ -66,7 +66,10 @@ def start_robot(scene: str = "flat", *, robot: str = "humanoid") -> None:
         )
     forget_node(NODE_NAME)  # an entry of a robot that was already running, or that crashed
     expect_node(NODE_NAME)
-    print(f"The robot is up in namespace {NAMESPACE}, ROS_DOMAIN_ID {domain_id}.{ended}")
+    lies = " It lies: lab.restart_robot() sets it up again." if topics.fell_at() else ""
+    print(
+        f"The robot {'runs' if lies else 'is up'} in namespace {NAMESPACE}, ROS_DOMAIN_ID {domain_id}.{lies}{ended}"
+    )
 
 
 def _end_robot_of_another_notebook() -> str:

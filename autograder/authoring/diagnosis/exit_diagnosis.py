@@ -19,6 +19,7 @@ CRASHES = "02_services#m9-why"
 OWN_FILE = re.compile(r"/work(?:-[^/]+)?/(\w+\.py)$")  # the folder in which a student's program runs
 # The same folder, before the file's name in a traceback.
 SANDBOX_FOLDER = re.compile(r'(?<=File ")[^"]*/work(?:-[^/"]+)?/(?=\w+\.py")')
+_NOT_PYTHON = re.compile(r"(IndentationError|SyntaxError|TabError)\b")
 _CRASHED = (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS)
 
 
@@ -136,6 +137,14 @@ def ended_by_itself(run: Record) -> ev.NodeExited | None:
     """Return the end of the student's program if it came before Ctrl-C; None if it did not."""
     exited, signalled = run.first(ev.NodeExited), run.first(ev.NodeSignalled)
     return exited if exited and (signalled is None or exited.t < signalled.t) else None
+
+
+def is_not_python(run: Record) -> bool:
+    """Return whether the program ended because Python could not compile it, so that no other run can differ."""
+    exited = ended_by_itself(run)
+    # Of an import or of exec() there is a traceback.
+    is_the_program = "Traceback (most recent call last)" not in run.output("stderr")
+    return bool(exited and exited.returncode and is_the_program and _NOT_PYTHON.match(run.last_words))
 
 
 def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:

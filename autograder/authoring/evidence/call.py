@@ -43,6 +43,10 @@ class Call:
     @property
     def answered(self) -> ev.ServiceAnswered:
         """Its answer, which must have come while the scenario waited for it."""
+        return self.answered_within()
+
+    def answered_within(self, limit: float | None = None) -> ev.ServiceAnswered:
+        """Return its answer, however late; the failure without one names the limit (s) that the statement sets."""
         if self.answer is not None:
             return self.answer
         require_alive(self.run)
@@ -50,8 +54,8 @@ class Call:
         remedy = remedy_for_no_answer(self.run)
         waited = given_up.waited if given_up else self.run.end - self.sent.t
         raise Failure(
-            expected=f"an answer to {self.service}",
-            observed=f"none within {waited:.0f} s{self._nor_to_others()}{self._meanwhile(waited)}",
+            expected=f"an answer to {self.service}" + (f" within {limit:g} s" if limit else ""),
+            observed=f"none after {waited:.0f} s of waiting{self._nor_to_others()}{self._meanwhile(waited)}",
             help=remedy.help,
             at=self.sent.t,
             see=remedy.see,

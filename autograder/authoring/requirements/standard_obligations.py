@@ -32,8 +32,9 @@ def answered_within(timeout: float, service: str, *, clause: int, help: str = FR
     """Make the obligation that every request is answered within `timeout` (s), however many come together."""
 
     def answers_in_time(call: Call) -> str:
+        answered = call.answered_within(timeout)
         call.require(
-            call.answered.t - call.sent.t <= timeout,
+            answered.t - call.sent.t <= timeout,
             expected=f"an answer within {timeout:g} s",
             observed=f"it took {call.latency:.1f} s",
             help=help,

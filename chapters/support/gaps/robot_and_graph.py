@@ -169,13 +169,14 @@ def _why_no_state(node: StudentNode) -> Exception:
             "pass self.on_state as the callback",
         )
     if "transient local" not in states:
-        states += ", volatile"
+        at_fault = "volatile messages, and so gets none from before its start"
         advice = "request durability=DurabilityPolicy.TRANSIENT_LOCAL in a QoSProfile"
     else:
+        at_fault = "best effort"
         advice = (
             "leave the reliability at its default: only a reliable subscription receives the stored message"
         )
-    return not_yet(f"no message arrived; your subscription requests {states}", expected, advice)
+    return not_yet(f"no message arrived; your subscription requests {at_fault}", expected, advice)
 
 
 def _subscriptions_of(name: str) -> dict[str, str]:

@@ -125,8 +125,9 @@ def _call_in_words(callback: Any, argument: Any) -> str:
         returned = task.result()
     except Exception as error:
         frames = traceback.extract_tb(error.__traceback__)
-        lines = [frame.line for frame in frames if frame.filename.startswith(os.getcwd())]
-        return f"{type(error).__name__}: {error}{f' in `{lines[-1]}`' if lines else ''}"
+        own = [frame for frame in frames if frame.filename.startswith(os.getcwd())]
+        where = f" in line {own[-1].lineno} (`{own[-1].line}`)" if own else ""
+        return f"{type(error).__name__}: {error}{where}"
     if isinstance(returned, WalkTo.Result):
         return f"a result with final_pose {returned.final_pose.pose.position.x:.2f}"
     return getattr(returned, "name", None) or repr(returned)

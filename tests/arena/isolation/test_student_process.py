@@ -10,6 +10,7 @@ from arenas import Student, run_student
 
 from autograder.isolation.arena_process import Kind
 from autograder.isolation.student_sandbox import Program
+from ros_runtime.workarounds.rclpy_repairs.hook import STACK_FILE
 
 
 def test_a_program_runs_in_its_folder_and_its_output_is_read_by_line(kind: Kind) -> None:
@@ -68,6 +69,23 @@ def test_it_gets_the_environment_it_was_given_and_the_arenas_network(kind: Kind)
 )
 def test_its_exit_status_is_reported(kind: Kind, code: str, returncode: int) -> None:
     assert run_student(Student(code), kind).returncode == returncode
+
+
+WAITS = """
+import threading
+def wait():
+    print("waiting", flush=True)
+    threading.Event().wait(0.5)
+    print("went on", flush=True)
+wait()
+"""
+
+
+def test_a_program_prints_the_stacks_of_its_threads_and_goes_on(kind: Kind) -> None:
+    meanwhile = "wait_for_line('waiting'); student.print_stacks(); wait_for_line('went on')"
+    run = run_student(Student(WAITS, meanwhile, env={STACK_FILE: "2"}), kind)
+    assert re.search(r'node\.py", line \d in wait\n', run.stderr)
+    assert (run.stdout, run.returncode) == ("waiting\nwent on\n", 0)
 
 
 def test_an_aborted_program_prints_the_stacks_of_its_threads(kind: Kind) -> None:

@@ -299,6 +299,21 @@ def test_where_no_points_can_be_lost_the_first_failure_may_count(monkeypatch, tw
     assert [name for name, _ in ran] == ["first"]
 
 
+@pytest.mark.parametrize(("said", "runs"), [("SyntaxError: '(' was never closed", 1), ("OSError: busy", 2)])
+def test_a_program_that_python_cannot_compile_is_not_retried(monkeypatch, two_checks, said, runs):
+    def ends_at_once(scenario, scale):
+        lines = [ev.NodeOutput(t=0.2, stream="stderr", text=text) for text in ('  File "a.py", line 3', said)]
+        events = [ev.NodeStarted(t=0.0), *lines, ev.NodeExited(t=0.3, returncode=1), ev.ScenarioEnded(t=0.4)]
+        return Transcript.from_events(scenario.name, {}, events)
+
+    ran = arenas(monkeypatch, ends_at_once)
+    retried = []
+    grade = graded(two_checks, jobs=1, watcher=grading.Watcher(on_retry=retried.append))
+    assert statuses(grade) == {"base": "failed", "above": "not run"}
+    assert [name for name, _ in ran].count("first") == runs
+    assert len(retried) == runs - 1
+
+
 def test_a_stop_ends_the_grading_without_a_grade_and_starts_no_other_arena(monkeypatch, two_checks):
     stop = Stop()
 

@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 import pytest
+import typer
 from nbformat.v4 import new_code_cell, new_notebook, writes
 
 from autograder import self_check as module
@@ -243,7 +244,9 @@ def test_submit_writes_what_a_grader_takes_and_says_what_it_holds(
     assert f"{NAME}.ipynb: {FIRST}, lines: 1, as saved" in printed
     assert f"fingerprint {last[NAME].program}" in printed
     assert "Last self-check of this program: 3 of 4 visible checks passed" in printed
-    assert "This program has not been checked. Next: ./course check interfaces" in printed
+    assert (
+        "This program has not been checked. Next: ./course check interfaces; then hand in what is" in printed
+    )
 
 
 def test_a_cell_submits_to_the_top_of_the_course_and_a_replaced_program_is_named(
@@ -262,3 +265,34 @@ def test_a_cell_submits_to_the_top_of_the_course_and_a_replaced_program_is_named
     before = Submission(NAME, "", {FIRST: WORK}).fingerprint
     assert f"it replaces another program, fingerprint {before}" in capsys.readouterr().out
     assert [path.name for path in (tmp_path / "hand_in").iterdir()] == [f"{NAME}.ipynb"]
+
+
+def test_submit_keeps_a_program_that_runs_when_python_cannot_run_the_new_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    fingerprint = Submission(NAME, "", {FIRST: WORK}).fingerprint
+    monkeypatch.setattr(
+        command, "last_checks", lambda: {NAME: LastCheck(7, 7, "2026-11-27T10:00:00", fingerprint)}
+    )
+    handed_in = tmp_path / "hand_in" / f"{NAME}.ipynb"
+    put(tmp_path, (f"{NAME}.ipynb", notebook("x = 1\ny = (2\n")))
+    with pytest.raises(typer.Exit):  # there is nothing else to hand in
+        command.submit([NAME])
+    assert "y = (2" in handed_in.read_text(encoding="utf-8")
+    assert f"{NAME}.ipynb: line 2 of {FIRST}: '(' was never closed" in capsys.readouterr().out
+
+    put(tmp_path, (f"{NAME}.ipynb", notebook(WORK)))
+    command.submit([NAME])
+    put(tmp_path, (f"{NAME}.ipynb", notebook("y = (2\n")))
+    capsys.readouterr()
+    with pytest.raises(typer.Exit):
+        command.submit([NAME])
+    assert read_submission(handed_in, NAME).sources == {FIRST: WORK}
+    printed = " ".join(capsys.readouterr().out.split())
+    assert f"it keeps fingerprint {fingerprint}: 7 of 7 visible checks passed" in printed
+    assert printed.count("Next:") == 1
+
+    put(tmp_path, (f"{NAME}.ipynb", notebook(OTHER)))
+    command.submit([NAME])
+    assert f"another program, fingerprint {fingerprint}: 7 of 7" in " ".join(capsys.readouterr().out.split())

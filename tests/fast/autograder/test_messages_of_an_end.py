@@ -102,7 +102,9 @@ def test_for_a_silent_server_its_continuing_topic_is_reported() -> None:
     failure = failure_of(
         lambda: run_of(asked(), *published, given_up("call", "first")).call("first").response
     )
-    assert failure.observed == "none within 5 s; the robot published battery_state 4 times meanwhile"
+    assert (
+        failure.observed == "none after 5 s of waiting; the robot published battery_state 4 times meanwhile"
+    )
 
 
 def test_a_server_that_ends_by_itself_is_advised_to_spin() -> None:

@@ -36,7 +36,9 @@ def test_for_a_server_without_an_answer_the_running_line_is_reported(
 ) -> None:
     run = run_of(asked(), given_up("call", "first"), stack(*frames))
     failure = failure_of(lambda: run.call("first").response)
-    assert failure.observed == "none within 5 s"
+    assert failure.expected == "an answer to get_status"
+    assert failure_of(run.call("first").answered_within, 2.0).expected == "an answer to get_status within 2 s"
+    assert failure.observed == "none after 5 s of waiting"
     assert next_step in failure.help
     lessons = {
         "not in rclpy.spin": "02_services#first-intro",

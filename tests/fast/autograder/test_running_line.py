@@ -1,4 +1,4 @@
-"""The line with the running scenario: on a terminal, in a notebook, and in plain output."""
+"""The line with the check whose scenario runs: on a terminal, in a notebook, and in plain output."""
 
 from __future__ import annotations
 
@@ -6,11 +6,15 @@ import io
 
 from rich.console import Console
 
-from autograder.authoring.checks import Scenario
+from autograder.authoring.checks import Check, Scenario
 from autograder.report.running import RunningLine
 
 ASK, WALK = Scenario("ask_once"), Scenario("walk")
 AGAIN = Scenario("ask_once", namespace="/lab_7/robot")
+CHECKS = [
+    Check("It answers", 1, lambda run: None, on=(ASK, AGAIN)),
+    Check("It walks", 1, lambda run: None, on=(WALK, ASK)),
+]
 
 
 def plain():
@@ -19,34 +23,34 @@ def plain():
 
 def test_a_plain_output_gets_a_line_at_each_change():
     console = plain()
-    with RunningLine(console) as line:
+    with RunningLine(console, CHECKS) as line:
         for scenarios in ([ASK], [ASK], [ASK, WALK], [WALK], []):
             line.show(scenarios)
     lines = console.file.getvalue().splitlines()
-    assert lines == ["running: ask once", "running: ask once, walk", "running: walk"]
+    assert lines == ["checking: It answers", "checking: It answers; It walks", "checking: It walks"]
 
 
-def test_a_scenario_that_runs_twice_is_named_once():
+def test_a_check_of_two_running_scenarios_is_named_once():
     console = plain()
-    with RunningLine(console) as line:
+    with RunningLine(console, CHECKS) as line:
         line.show([ASK, AGAIN])
-    assert console.file.getvalue() == "running: ask once\n"
+    assert console.file.getvalue() == "checking: It answers\n"
 
 
 def test_on_a_terminal_the_line_is_gone_at_the_end_and_verdicts_stand_above_it():
     console = Console(file=io.StringIO(), width=100, force_terminal=True)
-    with RunningLine(console) as line:
+    with RunningLine(console, CHECKS) as line:
         line.show([ASK])
         with line.aside():
             console.print("a verdict")
     written = console.file.getvalue()
-    assert "running: ask once" in written
+    assert "checking: It answers" in written
     assert "a verdict\n" in written
     assert written.rstrip("\x1b[?25h").endswith("\x1b[2K")  # the line is erased, the cursor shown again
 
 
 def test_in_a_notebook_the_line_is_written_over(capsys):
-    with RunningLine(plain(), in_notebook=True) as line:
+    with RunningLine(plain(), CHECKS, in_notebook=True) as line:
         line.show([ASK, WALK])
         with line.aside():
             print("a verdict")

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
+from lab.client.exchange import no_answer
 from lab.client.waiting import becomes_true
-from lab.running.node_diagnosis import how_it_ended, own_output, why_silent
+from lab.running import node_diagnosis
+from lab.running.node_diagnosis import how_it_ended, own_output, server_of, what_is_to_be_written, why_silent
 from lab.running.processes import Process
+from lab.running.programs import Program
 from lab.running.student_nodes import StudentNode
 
 BLOCKED = """
@@ -32,12 +36,12 @@ on_request()
 
 
 @pytest.fixture
-def start(tmp_path: Path) -> Iterator[Callable[[str], StudentNode]]:
+def start(tmp_path: Path) -> Iterator[Callable[..., StudentNode]]:
     """Start a program of a student; it is killed at the end."""
     started: list[StudentNode] = []
 
-    def start(program: str) -> StudentNode:
-        file = tmp_path / "status.py"
+    def start(program: str, name: str = "status.py") -> StudentNode:
+        file = tmp_path / name
         file.write_text(program, encoding="utf-8")
         started.append(StudentNode(file, Process([str(file)])))
         return started[-1]
@@ -48,7 +52,7 @@ def start(tmp_path: Path) -> Iterator[Callable[[str], StudentNode]]:
 
 
 def test_the_line_in_which_a_callback_waits_is_quoted_and_the_program_goes_on(
-    start: Callable[[str], StudentNode],
+    start: Callable[..., StudentNode],
 ) -> None:
     node = start(BLOCKED)
     assert becomes_true(lambda: "up" in node.log(), 10.0)
@@ -61,7 +65,7 @@ def test_the_line_in_which_a_callback_waits_is_quoted_and_the_program_goes_on(
 
 
 def test_an_exception_is_named_with_the_students_line_and_without_those_of_libraries(
-    start: Callable[[str], StudentNode],
+    start: Callable[..., StudentNode],
 ) -> None:
     node = start(RAISES)
     assert becomes_true(lambda: not node.is_running, 10.0)
@@ -71,3 +75,93 @@ def test_an_exception_is_named_with_the_students_line_and_without_those_of_libra
     )
     assert 'File "status.py", line 4, in on_request' in own_output(node)
     assert "decoder.py" not in own_output(node)
+
+
+def test_a_program_that_has_failed_shows_what_the_self_check_says(tmp_path: Path) -> None:
+    file = tmp_path / "patterns.py"
+    file.write_text("for pattern, reason in ['abc']:\n    pass\n", encoding="utf-8")
+    program = Program(file, Process([str(file)], own_stderr=True)).wait(10.0)
+    assert "ValueError: too many values to unpack" in str(program)
+    assert "Look for a missing comma" in str(program).splitlines()[-1]
+
+
+ENDS_SOON = """
+import time
+print("up", flush=True)
+time.sleep(0.3)
+raise TypeError("no response")
+"""
+RAISES_IN_A_THREAD = """
+import threading, time
+def main():
+    thread = threading.Thread(target=lambda: 1 / 0)
+    thread.start()
+    thread.join()
+    print("up", flush=True)
+    time.sleep(60)
+main()
+"""
+STARTER = """import time
+def on_request(request, response):
+    # YOUR CODE HERE
+    return response
+def on_state(message):
+    # YOUR CODE HERE
+
+    global state
+    state = message
+class Status:
+    def ask(self):
+        '''Ask.'''
+        # YOUR CODE HERE
+
+    def end(self):
+        pass
+"""
+
+
+@pytest.fixture
+def graph(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A graph in which no node offers a service."""
+    node = SimpleNamespace(resolve_service_name=lambda name: f"/robot/{name}")
+    monkeypatch.setattr(node_diagnosis, "connection", lambda: SimpleNamespace(node=node))
+
+
+@pytest.mark.usefixtures("graph")
+def test_a_node_of_another_service_is_not_blamed_for_the_server_that_has_ended(
+    start: Callable[..., StudentNode],
+) -> None:
+    other = start(BLOCKED, "where_am_i.py")
+    ended = start(RAISES)
+    assert becomes_true(lambda: not ended.is_running, 10.0)
+    assert server_of([other, ended], "get_status") is None
+    assert server_of([other], "get_status") is other
+
+
+@pytest.mark.usefixtures("graph")
+def test_for_a_server_that_is_about_to_end_only_the_exception_is_reported(
+    start: Callable[..., StudentNode], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    node = start(ENDS_SOON)
+    assert becomes_true(lambda: "up" in node.log(), 10.0)
+    monkeypatch.setattr("lab.client.exchange.started_nodes", lambda: [node])
+    said = str(no_answer("get_status", "no answer.")).splitlines()
+    assert said[0] == "no answer."
+    assert said[1].startswith("status.py has ended with exit status 1: TypeError: no response")
+    assert len(said) == 2
+
+
+def test_an_exception_that_has_not_ended_the_node_is_reported(start: Callable[..., StudentNode]) -> None:
+    node = start(RAISES_IN_A_THREAD.replace("time.sleep(60)", "threading.Event().wait()"))
+    assert becomes_true(lambda: "up" in node.log(), 10.0)
+    assert why_silent(node) == "status.py still runs, but has printed ZeroDivisionError: division by zero."
+
+
+def test_places_below_which_nothing_is_written_are_named(start: Callable[..., StudentNode]) -> None:
+    node = start(f"{STARTER}print('up', flush=True)\ntime.sleep(60)\n")
+    assert becomes_true(lambda: "up" in node.log(), 10.0)
+    assert what_is_to_be_written([node]) == (
+        "\nstatus.py is as the starter leaves it below `# YOUR CODE HERE` in line 3 and 13: write your code there."
+    )
+    node.kill()
+    assert what_is_to_be_written([node]) == ""

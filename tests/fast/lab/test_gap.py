@@ -13,7 +13,7 @@ import lab
 from lab.learning import gap as gap_module
 from lab.learning.gap import Gap, expect, find_gap, write_and_check
 from lab.learning.gap_cells import fill, gaps_of, solution
-from lab.learning.gap_check_helpers import advice_on, last_error
+from lab.learning.gap_check_helpers import advice_on, last_error, read_program, run_student_code
 from lab.learning.progress_file import read_entries
 
 PROGRAM = """def double(x):
@@ -61,6 +61,19 @@ def test_an_empty_gap_is_saved_and_says_where_to_write() -> None:
         write_and_check("double.py", PROGRAM)
     assert Path("double.py").read_text() == PROGRAM
     assert read_entries("gaps") == {}
+
+
+def test_a_placeholder_is_recognized_without_its_comment() -> None:
+    without = "".join(line for line in PROGRAM.splitlines(keepends=True) if "#" not in line)
+    with pytest.raises(lab.GapError, match=r"nothing is written yet. Replace `raise NotImplementedError`"):
+        write_and_check("double.py", without)
+
+
+def test_an_exception_in_the_lines_is_located() -> None:
+    Path("double.py").write_text("def double(x):\n    return twice\n", encoding="utf-8")
+    double = read_program("double.py")["double"]
+    with pytest.raises(lab.GapError, match=r"'twice' is not defined in line 2 \(`return twice`\)"):
+        run_student_code(lambda: double(1), "double.py")
 
 
 def test_for_wrong_lines_the_observation_and_the_next_step_are_printed(
@@ -144,7 +157,7 @@ def test_a_definition_has_another_placeholder_and_is_not_compiled(
     [
         (
             "%%writefile a.py\nx = (1\n",
-            "The file is written, but Python cannot run it. a.py: '(' was never closed: `x = (1`\n",
+            "The file is written, but Python cannot run it. a.py: '(' was never closed in line 1: `x = (1`\n",
         ),
         ("%%writefile a.py\nx = 1\n", ""),
         ("%%writefile a.yaml\nx: [1\n", ""),
@@ -176,7 +189,7 @@ SPUN = """Traceback (most recent call last):
         ),
         (
             '  File "/course/status.py", line 21, in on_request\n    x = 1 + None\nTypeError: unsupported operand\n',
-            "TypeError: unsupported operand in `x = 1 + None`",
+            "TypeError: unsupported operand in line 21 (`x = 1 + None`)",
             "fix the error that is named here",
         ),
     ],

@@ -35,7 +35,8 @@ def _text(outputs):
 def test_battery_service_from_the_task_to_the_verdicts(tmp_path):
     seen = run("battery_service", tmp_path)
     assert "at x " in seen["example-again"] or "no odom yet" in seen["example-again"]
-    assert re.search(r"available (True|False), battery \(voltage", seen["try"])
+    assert re.search(r"before the first message: available False, battery \(voltage", seen["try"])
+    assert re.search(r"after it: available True, battery \(voltage", seen["try"])
     assert "✓" in seen["self-check"]
     assert "✗" not in seen["self-check"]
     assert "The node offers get_battery_status" in seen["server_appears"]

@@ -42,6 +42,7 @@ def test_it_walks_during_the_block_and_its_pose_is_read(robot: Kernel) -> None:
 def test_a_restarted_robot_stands_at_the_origin(robot: Kernel) -> None:
     robot.run("from std_msgs.msg import Bool\nlab.publish('motor_power', Bool(data=False))")
     robot.run("lab.wait_until(lambda: lab.mode() == 'FALLEN')")
+    assert "It lies: lab.restart_robot() sets it up again." in robot.run("lab.start_robot()")
     printed = robot.run("lab.restart_robot(); print(lab.mode(), abs(lab.pose().x) < 0.05)")
     assert printed.splitlines()[-1] == "STANDING True"
 
