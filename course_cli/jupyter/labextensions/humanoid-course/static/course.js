@@ -22,10 +22,11 @@ function keepArrows(event) {
 }
 
 // What JupyterLab copies from the kernel into a notebook is no change that its reader has to save.
-function keepClean(_, { model }) {
+async function keepClean({ model, ready }) {
+  await ready; // until then the notebook is read
   model.metadataChanged.connect((_, { key }) => {
     const before = model.dirty;
-    if (COPIED.includes(key)) queueMicrotask(() => (model.dirty = before)); // JupyterLab sets it after this signal
+    if (COPIED.includes(key)) queueMicrotask(() => (model.dirty = before)); // it becomes dirty after this signal
   });
 }
 
@@ -64,7 +65,7 @@ const plugin = {
   autoStart: true,
   activate: ({ commands, docRegistry, shell }) => {
     window.addEventListener("keydown", keepArrows, { capture: true }); // before JupyterLab, which listens at the document
-    docRegistry.addWidgetExtension("Notebook", { createNew: keepClean });
+    docRegistry.addWidgetExtension("Notebook", { createNew: (_, context) => void keepClean(context) });
     shell.layoutModified.connect(keepNewestPanel);
     commands.commandExecuted.connect((_, { id, args }) => {
       if (id === "rendermime:handle-local-link" && args.id) land(shell, args.path, args.id);
