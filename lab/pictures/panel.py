@@ -20,7 +20,7 @@ _STYLE = f"""<style>
 .course-live > * {{ width: auto; max-width: 100%; margin: 2px 0; }}
 .course-live img {{ width: 100%; height: auto; }}
 .course-live:not(:has(.course-ended)) img {{ visibility: hidden; }}
-.course-live .widget-html-content {{ white-space: normal; overflow-wrap: anywhere; line-height: 1.4; }}
+.course-live .widget-html-content {{ padding: 0 4px; white-space: normal; overflow-wrap: anywhere; line-height: 1.4; }}
 .course-live p {{ margin: 0.3em 0; }}
 .course-live .course-ended {{ visibility: hidden; animation: course-ended 0s {SILENCE}s forwards; font-weight: bold; }}
 .course-live.jupyter-widgets-disconnected .course-ended, .course-live .jupyter-widgets-disconnected .course-ended
