@@ -11,6 +11,7 @@ from autograder.engine.hand_in import work_in
 from autograder.engine.submission import UnusableSubmission, read_submission
 from ros_runtime.project import COURSE
 
+WARNING = "bold black on yellow"  # legible in a light notebook and in a dark one
 _HIDDEN = re.compile(r"Hidden check \d+ \((\d+) points?\)")
 
 
@@ -29,7 +30,10 @@ def hidden_checks_notice(exercise: str) -> str:
 
 
 def saved_work_notice(exercise: str, program: str, folder: Path = Path()) -> Text:
-    """Return whether the work that is saved in a folder is the program of this fingerprint, and what to do."""
+    """Return whether the work that is saved in a folder is the program of this fingerprint, and what to do.
+
+    Only a warning has a style.
+    """
     found = work_in(folder, exercise, depth=0)
     if not found:
         return Text()
@@ -37,7 +41,7 @@ def saved_work_notice(exercise: str, program: str, folder: Path = Path()) -> Tex
     try:
         is_same = read_submission(saved, exercise).fingerprint == program
     except UnusableSubmission as error:
-        return Text(f"What a grader would take cannot be read: {error}", "yellow")
+        return Text(f"What a grader would take cannot be read: {error}", WARNING)
     if is_same:
         advice = (
             f"{saved.name} is saved with the program that was checked. To hand it in: !course submit {exercise} in a "
@@ -45,7 +49,7 @@ def saved_work_notice(exercise: str, program: str, folder: Path = Path()) -> Tex
         )
         return Text(advice)
     return Text(
-        f"{saved.name}, which a grader would take, is saved with another program than was checked. "
+        f"{saved.name}, which a grader would take, is saved with another program than the one checked here. "
         "Next: save it (Ctrl+S), run its %%writefile cell, and check again.",
-        "yellow",
+        WARNING,
     )

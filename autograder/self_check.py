@@ -86,6 +86,10 @@ def self_check(exercise: str, file: str | Path | None = None, *, page: str | Pat
     if Console().is_jupyter:
         save_notebook()
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
+    if not file:
+        warning = saved_work_notice(exercise, read_submission(path, exercise).fingerprint)
+        if warning.style:
+            console.print(warning)  # before the verdicts, which may be long
     result = check_and_keep(console, path, exercise, page=Path(page) if page else None)
     for line in (
         Text(hidden_checks_notice(exercise)),

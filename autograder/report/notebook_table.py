@@ -14,7 +14,7 @@ from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.lesson import address, in_words
 from autograder.engine.verdict import CheckVerdict
 from autograder.report.rendering import ENVIRONMENT
-from autograder.report.sequence import transcript_svg
+from autograder.report.sequence import has_messages, transcript_svg
 from autograder.report.table import MARKS, reasons
 
 
@@ -41,12 +41,13 @@ class NotebookTable:
             self._update()
 
     def draw(self, verdict: CheckVerdict, transcripts: Sequence[Transcript]) -> None:
-        """Draw the last run that a failed check was judged on."""
+        """Draw the last run that a failed check was judged on, if anything was sent in it."""
         if verdict.status == "failed" and transcripts:
             title = transcripts[-1].scenario.replace("_", " ")
             with self._changing:
                 self.evidence[verdict.id] = transcripts
-                self._drawings[verdict.id] = Markup(transcript_svg(transcripts[-1], title))
+                if has_messages(transcripts[-1]):
+                    self._drawings[verdict.id] = Markup(transcript_svg(transcripts[-1], title))
                 self._update()
 
     def film(self, check_id: str, words: str, webp: bytes = b"") -> None:

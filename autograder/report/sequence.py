@@ -30,6 +30,11 @@ def transcript_svg(transcript: Transcript, title: str) -> str:
     return sequence_svg(arrows, title=title, participants=(CLIENT, SERVER, ROBOT))
 
 
+def has_messages(transcript: Transcript) -> bool:
+    """Whether anything was sent in a transcript, so that its drawing has more than notes."""
+    return any(arrow.sender != arrow.receiver for arrow in _messages(transcript))
+
+
 def _messages(transcript: Transcript) -> Iterator[Arrow]:
     feedback: list[Feedback] = []
     for event in transcript.events:

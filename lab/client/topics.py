@@ -37,6 +37,7 @@ TOPICS: dict[str, tuple[Any, Any]] = {
     "joint_states": (JointState, BEST_EFFORT),
 }
 GRIPPER_TOPIC = "r_gripper/wrench"  # subscribed to only in scenes with objects
+START_TIMEOUT = 30.0  # s, from the start of the robot to its first messages
 MAX_AGE = 1.0  # s of a message that still counts as current; each topic is published at least twice a second
 
 
@@ -109,10 +110,16 @@ def has_published() -> bool:
     return _last_messages().messages.keys() >= TOPICS.keys()
 
 
+def is_starting() -> bool:
+    """Whether a robot was started so lately that its first messages may still be on their way."""
+    return not has_published() and time.monotonic() < _last_messages().reset_at + START_TIMEOUT
+
+
 def reset_for_scene(scene: str, robot: str = "humanoid") -> None:
     """Drop the messages of an earlier robot, and subscribe to the objects of this scene and to the right gripper."""
     stored = _last_messages()
     stored.messages.clear()
+    stored.reset_at = time.monotonic()
     stored.scene, stored.robot = scene, robot
     if OBJECTS[scene]:
         stored.subscribe(GRIPPER_TOPIC, WrenchStamped, QUEUE_DEPTH)
@@ -163,8 +170,8 @@ def _last_messages() -> _LastMessages:
 class _LastMessages:
     """Subscribes to topics and keeps each topic's last message with its time of arrival.
 
-    `scene` is the name of the scene in which the robot was started, `robot` the robot's name; `mode_changed_at` is in s
-    of `time.monotonic()`.
+    `scene` is the name of the scene in which the robot was started, `robot` the robot's name; `mode_changed_at` and
+    `reset_at`, just before the robot was started, are in s of `time.monotonic()`.
     """
 
     def __init__(self, node: Node) -> None:
@@ -172,6 +179,7 @@ class _LastMessages:
         self.listeners: list[Callable[[str, Any], object]] = []
         self.scene, self.robot = "flat", "humanoid"
         self.mode_changed_at = time.monotonic()
+        self.reset_at = -math.inf
         self._node = node
         self._topics: set[str] = set()
         for topic, (message_type, qos) in TOPICS.items():

@@ -15,9 +15,10 @@ from lab.learning.progress_file import read_entries
 from lab.learning.question import Question, read_questions
 from ros_runtime.self_checks import LastCheck, last_checks
 
-HEADS = ("Chapter and its exercises", "Minutes", "Predictions", "Quiz", "Gaps")
+HEADS = ("Chapter and its exercises", "Min.", "Predictions", "Quiz", "Gaps")
 LEFT = "style='text-align: left; white-space: nowrap'"
-INDENTED = "style='text-align: left; white-space: nowrap; padding-left: 2em'"
+NAME = "style='text-align: left'"  # long names wrap where the page is narrow
+INDENTED = "style='text-align: left; padding-left: 2em'"
 
 
 @dataclass(frozen=True)
@@ -129,14 +130,15 @@ class ProgressTable:
         rows = "".join(f"<tr>{cells}</tr>" for row in self.chapters for cells in _rows(row))
         return (
             f"<p><b>{sentence} {_link(notebook, titles.get(notebook, notebook.stem))}.</b></p>"
-            f"<table><thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table>"
+            "<div style='overflow-x: auto' tabindex='0' role='group' aria-label='progress'>"
+            f"<table><thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table></div>"
         )
 
 
 def _rows(row: ChapterProgress) -> Iterator[str]:
     """Return the cells of a chapter, then those of each of its exercises: all fit beside the robot's panel."""
     parts = "".join(f"<td {LEFT}>{_bar(part, name)}</td>" for name, part in row.parts.items())
-    yield f"<td {LEFT}>{_link(row.chapter.notebook, row.chapter.title)}</td><td>{row.chapter.minutes}</td>{parts}"
+    yield f"<td {NAME}>{_link(row.chapter.notebook, row.chapter.title)}</td><td>{row.chapter.minutes}</td>{parts}"
     for exercise, check in row.exercises:
         name = f"<td {INDENTED}>{_link(exercise.notebook, exercise.name)}</td><td>{exercise.minutes}</td>"
         yield f"{name}<td {LEFT} colspan='{len(row.parts)}'>{_checked(exercise, check)}</td>"
@@ -146,7 +148,7 @@ def _bar(part: Part, what: str) -> str:
     if not part.total:
         return str(part)
     label = f"{what}: {part.done} of {part.total}"
-    bar = f'<progress value="{part.done}" max="{part.total}" aria-label="{label}" style="width: 2em"></progress>'
+    bar = f'<progress value="{part.done}" max="{part.total}" aria-label="{label}" style="width: 1.5em"></progress>'
     return f"{bar} {part}"
 
 

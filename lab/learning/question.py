@@ -73,7 +73,7 @@ class Question:
         """Return a radio button for each choice, with none selected; a screen reader says which one is."""
         buttons = ipywidgets.RadioButtons(
             options=[
-                (f"{letter}  {choice.text.replace('`', '')}", letter)
+                (f"{letter}) {choice.text.replace('`', '')}", letter)
                 for letter, choice in self.by_letter().items()
             ],
             value=None,
@@ -83,7 +83,7 @@ class Question:
     def show(self, panel: ipywidgets.Widget, call: str) -> None:
         """Show the panel with the buttons; without widget support, show the choices and the `call` to type instead."""
         rows = "".join(
-            f"<li><b>{letter}</b> {in_html(choice.text)}</li>" for letter, choice in self.by_letter().items()
+            f"<li><b>{letter})</b> {in_html(choice.text)}</li>" for letter, choice in self.by_letter().items()
         )
         without = f"<ul style='list-style: none'>{rows}</ul><p>Run <code>{escape(call)}</code> in a cell.</p>"
         display({**panel._repr_mimebundle_(), "text/html": without}, raw=True)

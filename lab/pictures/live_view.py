@@ -141,16 +141,18 @@ class _LiveView:
         drawn = np.full(body.model.nq, np.inf)
         while not self._stop.is_set() and (topics.scene(), topics.robot()) == (body.scene, body.body.name):
             began = time.monotonic()
+            moved = False
             try:
                 set_current_posture(body)
-                if abs(body.data.qpos - drawn).max() > SEEN_MOTION:
-                    drawn = body.data.qpos.copy()
-                    self.widget.value = _jpeg(view.picture(self.camera))
-                text = f"{topics.mode()} at {topics.pose()}"
+                text = f"{topics.mode()} at {topics.pose()}"  # of the same moment as the picture
+                moved = bool(abs(body.data.qpos - drawn).max() > SEEN_MOTION)
             except NoRobotError as error:  # the robot may be started again
-                text = str(error)
+                text = "The robot is starting." if topics.is_starting() else str(error)
                 if self.panel and robot_of_another_notebook():
                     self._stop.set()
+            if moved:
+                drawn = body.data.qpos.copy()
+                self.widget.value = _jpeg(view.picture(self.camera))
             self.widget.tooltip = f"The robot: {text}"
             if self.panel:
                 self.panel.write(text)

@@ -10,6 +10,7 @@ import psutil
 
 from lab.client import topics
 from lab.client.connection import NAMESPACE, connection
+from lab.client.topics import START_TIMEOUT
 from lab.client.waiting import becomes_true
 from lab.errors import NoRobotError
 from lab.notices import notice
@@ -19,7 +20,6 @@ from robot_sim.body import MissingParts, body_named
 from robot_sim.model.scenes import OBJECTS
 from ros_runtime.notebook_domains import announce_robot, expect_node, forget_node, robot_of_another_notebook
 
-START_TIMEOUT = 30.0  # s
 NODE_NAME = f"{NAMESPACE}/humanoid"
 
 _robot: Process | None = None

@@ -23,8 +23,8 @@ from autograder.engine.verdict import CheckVerdict
 HEADING_ID, RUBRIC_ID = "verdicts", "rubric"
 VERDICTS = """## The verdicts
 
-One cell for each check, filled from the last self-check. What is hidden is checked when your work is graded: the task
-above covers it."""
+These cells are for the grader, who runs them: you have nothing to do here, and they may stay empty. There is one for
+each check. What is hidden is checked when your work is graded: the task above covers it."""
 MARKS = """## The marks
 
 One cell for each criterion of the rubric. A person fills them in, from what you wrote above."""

@@ -115,6 +115,7 @@ def page(address: str) -> Iterator[Page]:
 def test_from_the_start_page_to_a_robot_that_walks(page: Page) -> None:
     page.get_by_role("link", name="The robot and its graph").click()
     page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
+    require_saved(page)  # although JupyterLab copies the kernel's version into it
     assert page.get_by_text("Validate", exact=True).count() == 0  # nbgrader's, with a time limit of its own
 
     page.get_by_role("heading", name="1 · The robot and its graph").click()
@@ -163,13 +164,19 @@ def test_the_robot_is_shown_beside_the_notebook_that_has_it(page: Page, folder: 
     run_first_cell(page, "second")
     page.get_by_text("The robot of first.ipynb has ended").wait_for()
     page.get_by_text("STANDING at").wait_for()
+    page.get_by_text("The robot of second.ipynb").wait_for()
     expect(panels(page)).to_have_count(1)
+    assert page.locator(".course-live").evaluate("panel => panel.scrollWidth <= panel.clientWidth")
 
     page.get_by_role("menuitem", name="Kernel", exact=True).click()
     page.get_by_text("Restart Kernel…", exact=True).first.click()
     page.get_by_role("button", name="Confirm Kernel Restart").click()
     ended = page.get_by_text("This picture no longer moves")
-    ended.wait_for()
+    page.locator(".course-live .jupyter-widgets-disconnected").first.wait_for(state="attached")
+    # it would be said after panel.SILENCE by itself
+    expect(ended).to_be_visible(timeout=1000)
+    icons = "parts => parts.map(part => getComputedStyle(part, '::before').display)"
+    assert set(page.locator(".course-live .jupyter-widgets-disconnected").evaluate_all(icons)) == {"none"}
     run_first_cell(page, "second")
     ended.wait_for(state="hidden")
     page.get_by_text("STANDING at").wait_for()
@@ -205,11 +212,11 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
     page.get_by_text("Choose a, b or c.").wait_for()
 
     page.locator(".course-choices input").first.focus()
-    page.keyboard.press("Tab")
     page.keyboard.press("Space")
+    page.keyboard.press("ArrowDown")
     page.get_by_text("You predict b. Run the next cell.").wait_for()
-    assert page.get_by_role("radio", name=re.compile("^b ")).is_checked()
-    page.get_by_role("radio", name=re.compile("^c ")).click()
+    assert page.get_by_role("radio", name=re.compile(r"^b\) ")).is_checked()
+    page.get_by_role("radio", name=re.compile(r"^c\) ")).click()
     page.get_by_text("You predict c. Run the next cell.").wait_for()
     require_accessible(page, OUTPUTS)
 
@@ -245,6 +252,7 @@ def test_a_self_check_saves_the_program_that_it_checks(page: Page, folder: Path,
     failed.get_by_role("link", name="Topic, service or action?").click()
     lesson = page.get_by_role("heading", name="Topic, service or action?")
     expect(lesson).to_be_in_viewport(timeout=1000 * TIMEOUT)
+    expect(page.locator(".jp-Cell.jp-mod-active:visible")).to_contain_text("Topic, service or action?")
 
 
 def test_questions_plots_and_drawings_suit_both_themes(page: Page, folder: Path, address: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from pathlib import Path
 
@@ -122,6 +123,25 @@ def test_each_prediction_is_asked_for_then_required_then_answered(name: str) -> 
 def test_an_experiment_begins_with_its_prediction(name: str) -> None:
     waiting = [cell.source for cell in read(name).cells if ".require()" in cell.source]
     assert all(source.splitlines()[0].endswith(".require()") for source in waiting)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_cell_needs_an_import_of_an_experiment_that_waits_for_its_prediction(name: str) -> None:
+    waiting: set[str] = set()
+    known: set[str] = set()
+    for cell in read(name).cells:
+        if cell.cell_type != "code" or cell.source.startswith("%%"):
+            continue
+        program = re.sub(r"^(\s*)!.*", r"\1pass", cell.source, flags=re.MULTILINE)
+        nodes = list(ast.walk(ast.parse(program)))
+        imports = [node for node in nodes if isinstance(node, ast.Import | ast.ImportFrom)]
+        imported = {alias.asname or alias.name.partition(".")[0] for node in imports for alias in node.names}
+        used = {node.id for node in nodes if isinstance(node, ast.Name)}
+        assert used & waiting <= known | imported, cell.id
+        if ".require()" in cell.source:
+            waiting |= imported
+        else:
+            known |= imported
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -23,7 +23,7 @@ class Robot:
         self.scene, self.name = "flat", "humanoid"
         self.height = 0.7
         self.error: NoRobotError | None = None
-        self.taken = False
+        self.taken = self.starting = False
         self.drawn: list[tuple[str, float]] = []  # scene and height of each picture
 
     def set_posture(self, body: SimpleNamespace) -> None:
@@ -59,6 +59,7 @@ def robot(monkeypatch: pytest.MonkeyPatch) -> Iterator[Robot]:
         "odometry": lambda: None,
         "scene": lambda: robot.scene,
         "robot": lambda: robot.name,
+        "is_starting": lambda: robot.starting,
         "mode": lambda: "OFF",
         "pose": lambda: "x",
     }
@@ -69,6 +70,7 @@ def robot(monkeypatch: pytest.MonkeyPatch) -> Iterator[Robot]:
     monkeypatch.setattr(live_view, "is_notebook_of_a_lab", lambda: True)
     monkeypatch.setattr(live_view, "robot_of_another_notebook", lambda: robot.taken)
     monkeypatch.setattr(panel, "BEAT_PERIOD", 0.0)
+    monkeypatch.setenv("JPY_SESSION_NAME", "chapters/chapter.ipynb")
     yield robot
     live_view.stop_watching()
 
@@ -97,6 +99,7 @@ def test_a_robot_that_stands_still_is_drawn_once_and_its_text_goes_on(robot: Rob
     first = text(view)
     wait_until(lambda: text(view) != first)
     assert "OFF at x" in text(view)
+    assert "The robot of chapter.ipynb" in text(view)
     assert robot.drawn == [("flat", 0.7)]
     robot.height = 0.6
     wait_until(lambda: robot.drawn == [("flat", 0.7), ("flat", 0.6)])
@@ -110,7 +113,9 @@ def test_a_robot_in_another_scene_is_drawn_in_it(robot: Robot) -> None:
 
 def test_the_panel_says_that_no_message_comes_and_goes_on_with_the_next_robot(robot: Robot) -> None:
     view = watched()
-    robot.error = NoRobotError("no message arrived")
+    robot.starting, robot.error = True, NoRobotError("no message arrived")
+    wait_until(lambda: "The robot is starting." in text(view))
+    robot.starting = False
     wait_until(lambda: "no message arrived" in text(view))
     robot.error = None
     wait_until(lambda: "OFF at x" in text(view))

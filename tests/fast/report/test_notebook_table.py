@@ -40,8 +40,12 @@ def test_failed_checks_are_open_and_the_others_folded(shown: list[dict[str, str]
     failed = CheckVerdict(
         CHECKS[1].id, "<b>", "failed", 0, 2, expected="a node", observed="none", help="Start it."
     )
-    table.draw(failed, [Transcript.from_events("in_order", {}, [ev.NodeReady(t=0.5, waited=0.5)])])
+    ready = ev.NodeReady(t=0.5, waited=0.5)
+    table.draw(failed, [Transcript.from_events("in_order", {}, [ready])])
     table.add(failed)
+    assert "<svg" not in shown[-1]["text/html"]  # nothing was sent
+    signal = ev.NodeSignalled(t=1.0, signal="SIGINT")
+    table.draw(failed, [Transcript.from_events("in_order", {}, [ready, signal])])
     html = shown[-1]["text/html"]
     assert "failed: &lt;b&gt; (0/2)" in html
     assert html.count("<details open") == 1

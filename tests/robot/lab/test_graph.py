@@ -57,6 +57,8 @@ def test_the_text_alternative_names_publishers_and_subscribers(robot: Kernel) ->
     assert "/robot/odom: from /robot/humanoid to /robot/notebook." in svg
     assert "/robot/cmd_vel: from nobody to /robot/humanoid." in svg
     assert svg.count('stroke="#c0392b"') == 2  # a line, and its legend
+    width = int(svg.partition(' width="')[2].partition('"')[0])
+    assert width <= 600  # px; in a wider drawing the letters shrink beside the robot's panel
 
 
 def test_an_absolute_name_is_another_topic(robot: Kernel) -> None:

@@ -5,12 +5,39 @@ const LAYOUT_TIMEOUT = 20; // s, for a chapter on a busy machine
 const STEADY = 15; // times that a heading was seen at the same place; JupyterLab may still scroll back to the first cell
 const PERIOD = 200; // ms
 
+const ARROWS = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"];
+const COPIED = ["kernelspec", "language_info"]; // metadata
+
 const pause = () => new Promise((resolve) => setTimeout(resolve, PERIOD));
 
 // A notebook that is opened again shows its panel again, beside the one of its closed tab.
 function keepNewestPanel(shell) {
   const panels = [...shell.widgets("right")].filter((widget) => widget.title.label === PANEL);
   panels.slice(0, -1).forEach((panel) => panel.dispose());
+}
+
+// An arrow key moves within a question's radio buttons; JupyterLab would go to the next cell.
+function keepArrows(event) {
+  if (ARROWS.includes(event.key) && event.target.matches?.(".jupyter-widgets input[type=radio]")) event.stopPropagation();
+}
+
+// What JupyterLab copies from the kernel into a notebook is no change that its reader has to save.
+async function keepClean({ model, ready }) {
+  await ready; // until then the notebook is read
+  model.metadataChanged.connect((_, { key }) => {
+    const before = model.dirty;
+    if (COPIED.includes(key)) queueMicrotask(() => (model.dirty = before)); // it becomes dirty after this signal
+  });
+}
+
+// The keys act on the selected cell, which is elsewhere when a link has scrolled to a heading.
+function select(notebook, heading) {
+  const index = notebook?.widgets.findIndex(({ node }) => node.contains(heading)) ?? -1;
+  if (index >= 0 && index !== notebook.activeCellIndex) {
+    notebook.mode = "command";
+    notebook.deselectAll();
+    notebook.activeCellIndex = index;
+  }
 }
 
 // JupyterLab scrolls as soon as a notebook is read, when its cells have no height yet.
@@ -27,6 +54,7 @@ async function land(shell, path, fragment) {
     const { top, height } = heading?.getBoundingClientRect() ?? {};
     seen = height && top === place ? seen + 1 : 0; // without height while the notebook is hidden
     heading?.scrollIntoView();
+    select(notebook?.content, heading);
     place = heading?.getBoundingClientRect().top;
   }
   input.abort();
@@ -35,7 +63,9 @@ async function land(shell, path, fragment) {
 const plugin = {
   id: "humanoid-course:desk",
   autoStart: true,
-  activate: ({ commands, shell }) => {
+  activate: ({ commands, docRegistry, shell }) => {
+    window.addEventListener("keydown", keepArrows, { capture: true }); // before JupyterLab, which listens at the document
+    docRegistry.addWidgetExtension("Notebook", { createNew: (_, context) => void keepClean(context) });
     shell.layoutModified.connect(keepNewestPanel);
     commands.commandExecuted.connect((_, { id, args }) => {
       if (id === "rendermime:handle-local-link" && args.id) land(shell, args.path, args.id);
