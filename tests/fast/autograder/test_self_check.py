@@ -30,9 +30,11 @@ def graded(*statuses: CheckStatus) -> Grade:
     [(graded("passed", "failed"), KEPT), (graded("passed", "error"), []), (graded(), [])],
 )
 def test_it_is_kept_when_every_check_was_judged(
-    grade: Grade, expected: list, monkeypatch: pytest.MonkeyPatch
+    grade: Grade, expected: list, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     kept: list[tuple] = []
+    (tmp_path / "battery_service.py").write_text("print()")
+    monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(module, "check_with_progress", lambda *arguments, **options: grade)
     monkeypatch.setattr(module, "store_check", lambda *entry: kept.append(entry))
     assert module.self_check("battery_service").grade is grade

@@ -63,7 +63,7 @@ def test_the_answers_themselves_are_clicked_and_shown_where_there_are_no_widgets
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     answers, _, _ = panel(Prediction(1, EXAMPLE))
-    assert answers.options == (("a  5", "a"), ("b  4", "b"))
+    assert answers.options == (("a) 5", "a"), ("b) 4", "b"))
     shown: list[dict] = []
     monkeypatch.setattr("lab.learning.question.display", lambda bundle, raw: shown.append(bundle))
     EXAMPLE.show(answers, 'prediction_1.choose("a")')
