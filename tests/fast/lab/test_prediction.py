@@ -68,7 +68,7 @@ def test_the_answers_themselves_are_clicked_and_shown_where_there_are_no_widgets
     monkeypatch.setattr("lab.learning.question.display", lambda bundle, raw: shown.append(bundle))
     EXAMPLE.show(answers, 'prediction_1.choose("a")')
     assert "application/vnd.jupyter.widget-view+json" in shown[0]
-    assert "<b>b</b> 4" in shown[0]["text/html"]
+    assert "<b>b)</b> 4" in shown[0]["text/html"]
     assert "prediction_1.choose" in shown[0]["text/html"]
 
 
