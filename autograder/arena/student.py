@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from autograder.arena import events as ev
 from autograder.arena.arena_log import ArenaLog
@@ -17,7 +17,7 @@ from ros_runtime.workarounds.rclpy_repairs.hook import STACK_FILE
 from ros_runtime.workarounds.scaled_clock.clock import ScaledClock
 
 ABORT_TIMEOUT = 0.5  # s of real time for faulthandler to print the stacks, and for the program's end
-PRINT_TIME = 0.2  # s of real time for faulthandler to print the stacks
+PRINT_TIMEOUT = 0.2  # s of real time for faulthandler to print the stacks
 STDERR = "2"  # its descriptor
 LONGEST_STACK, LONGEST_LINE = 200, 200  # lines, characters
 
@@ -53,11 +53,8 @@ class Student:
     def record_where_it_waits(self) -> None:
         """Record the stacks of a server that has not answered a call; it goes on, and Ctrl-C may end its callback."""
         if self._process and self._log.count(ev.Unanswered, what="call") and not self.has_exited():
-            self._stack = []
-            self._process.print_stacks()
-            self._process.wait(PRINT_TIME * self._clock.scale)
-            stack, self._stack = self._stack, None
-            self._log.append(ev.NodeStack(lines=stack[:LONGEST_STACK]))
+            self._record_stacks(self._process, self._process.print_stacks, PRINT_TIMEOUT)
+            self._stack = None
 
     def interrupt(self) -> None:
         """Send SIGINT, as Ctrl-C does."""
@@ -92,7 +89,8 @@ class Student:
             self._watch.report()
             silent = self._log.count(ev.Unanswered) or self._log.count(ev.NodeSignalled)
             if silent and not self.has_exited() and not self._log.count(ev.NodeStack):
-                self._record_stack(self._process)
+                # this ends the program
+                self._record_stacks(self._process, self._process.abort, ABORT_TIMEOUT)
             self._process.kill()
 
     @property
@@ -121,11 +119,11 @@ class Student:
             self._process, self._log, self._clock, program.limits, self._spec.private_network
         )
 
-    def _record_stack(self, process: StudentProcess) -> None:
-        """Record the stacks of a program that no longer answers; this ends the program."""
+    def _record_stacks(self, process: StudentProcess, print_them: Callable[[], None], timeout: float) -> None:
+        """Record what a program prints within `timeout` (s of real time) after it was told to print its stacks."""
         self._stack = []
-        process.abort()
-        process.wait(ABORT_TIMEOUT * self._clock.scale)
+        print_them()
+        process.wait(timeout * self._clock.scale)
         self._log.append(ev.NodeStack(lines=self._stack[:LONGEST_STACK]))
 
     def _on_line(self, t: float, stream: str, text: str) -> None:

@@ -116,6 +116,8 @@ def _syntax_error(submission: Submission) -> str:
                     compile(text, name, "exec", dont_inherit=True)
         except SyntaxError as error:
             return f"line {error.lineno} of {name}: {error.msg}"
+        except (MemoryError, RecursionError):
+            return f"an expression in {name} is nested too deeply"
     return ""
 
 

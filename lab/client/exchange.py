@@ -26,7 +26,7 @@ from ros_runtime.recorded_client.goal import Cancel, Goal
 from ros_runtime.recorded_client.service_client import Call
 
 TIME_TO_END = 1.0  # s; long enough for a node to end after an exception
-LIES = "The robot lies, so this waits in vain for all that only a standing robot does. lab.restart_robot() sets it up."
+LIES = "The robot lies on the floor. lab.restart_robot() sets it up, if this waits for a robot that stands."
 MATCHING_TIME = 0.1  # s until the server has discovered the client, too; otherwise its answer could be lost
 
 

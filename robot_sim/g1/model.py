@@ -1,4 +1,4 @@
-"""The MuJoCo model of the G1: the one of MuJoCo Playground, on the course's floor, with capsules for its meshes."""
+"""The MuJoCo model of the G1: that of MuJoCo Playground on the course's floor, with capsules in place of its meshes."""
 
 from __future__ import annotations
 

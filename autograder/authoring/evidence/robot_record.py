@@ -22,6 +22,11 @@ T = TypeVar("T")
 class RobotRecord(Record):
     """A record with the states of the robot, and the scenario's commands to it."""
 
+    @property
+    def robot_ready(self) -> ev.RobotReady:
+        """The event that says what this robot can do; that of the course's own robot if the record has none."""
+        return self.first(ev.RobotReady) or ev.RobotReady(t=0.0)
+
     def robot_at(self, t: float) -> ev.RobotTruth:
         """Return the robot at time `t` (s): the last sample not later, or the first there is."""
         return self.robot_between(t, t)[-1]

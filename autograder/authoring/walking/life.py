@@ -30,8 +30,7 @@ def run_of(goal: Goal) -> Transcript:
 
 def can_walk_at(goal: Goal, velocity: float) -> bool:
     """Return whether the robot of this run can walk at a velocity (m/s)."""
-    ready = run_of(goal).first(ev.RobotReady) or ev.RobotReady(t=0.0)
-    return velocity <= ready.fastest
+    return velocity <= run_of(goal).robot_ready.fastest
 
 
 def accepted(goal: Goal) -> bool:

@@ -83,13 +83,7 @@ def require_stopped(
     """Require that the robot stands still and upright from 2 s after an event at `since` (s), at most until `until`."""
     watched = run.robot_between(since + STOP_TIME, min(since + WATCH_TIME, until))
     when = f"within {STOP_TIME:.0f} s of {event}, and still"
-    require_standing(watched, when, since, event, STOP, stop_speed(run))
-
-
-def stop_speed(run: RobotRecord) -> float:
-    """Return the speed (m/s) of the pelvis below which the robot of this run stands still."""
-    ready = run.first(ev.RobotReady) or ev.RobotReady(t=0.0)
-    return ready.still
+    require_standing(watched, when, since, event, STOP, run.robot_ready.still)
 
 
 def require_standing(

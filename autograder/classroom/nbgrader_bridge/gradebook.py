@@ -184,7 +184,7 @@ class CourseGradebook:
 
 
 def _penalty(notebook: Any, entry: Entry) -> float:
-    """Return the points to deduct for late work, never more than nbgrader's `notebook` has."""
+    """Return the points that nbgrader deducts for late work: at most the score of the `notebook`."""
     return min(entry.late_points, float(notebook.score))
 
 

@@ -116,7 +116,7 @@ class _SeenRun:
         return self._about(mark, story, "Which line of your program made the client receive ABORTED?")
 
     def answers(self, call: Call) -> Iterator[Question]:
-        """An answer to a request, while no different one was sent: the lines that filled its simple fields."""
+        """An answer to a request, while no different one was sent: the lines that gave its fields their values."""
         if not call.answer:
             return
         response, begun, over = call.answer.response, call.sent.t, call.answer.t
@@ -184,7 +184,7 @@ class _SeenRun:
 
 
 def _words_of(call: Call) -> tuple[str, str]:
-    """Return the simple fields of a request and of its response."""
+    """Return a request with its service, and its response, in words."""
     told = (call.request, call.response)
     request, answer = (shorten(shown_fields(one, *_simple(one)), LONGEST_TEXT) for one in told)
     return f"{call.service}{request and f' with {request}'}", answer

@@ -90,6 +90,15 @@ def line_of(program: StudentProgram, code: str, number: int = 0) -> int:
     return [place for place, line in enumerate(program.lines, 1) if code in line][number]
 
 
+def second_cancel(program: StudentProgram) -> ast.Attribute:
+    """Return the place where a client calls cancel_goal_async for the second time."""
+    line = line_of(program, "handle.cancel_goal_async()", 1)
+    (node,) = [
+        one for one in program.every(ast.Attribute) if one.lineno == line and one.attr.startswith("cancel")
+    ]
+    return node
+
+
 def recorded_walk(name: str) -> Transcript:
     path = recorded.FOLDER / "cancellable_walk" / f"threads_and_sleep.{name}.jsonl.gz"
     return recorded.read(path, recorded.scenarios_of("cancellable_walk")[name])
@@ -253,22 +262,14 @@ def test_no_condition_is_named_if_an_earlier_one_that_is_nested_could_have_left(
 
 def test_the_condition_of_a_function_without_one_is_that_of_its_only_call():
     program = StudentProgram(known("battery_guard", "one_loop"))
-    line = line_of(program, "handle.cancel_goal_async()", 1)
-    (node,) = [
-        one for one in program.every(ast.Attribute) if one.lineno == line and one.attr.startswith("cancel")
-    ]
-    led, holds = program.condition(node)
+    led, holds = program.condition(second_cancel(program))
     assert led.lineno == line_of(program, "if not ended.done():")
     assert holds
 
 
 def test_an_exception_that_led_to_a_line_is_asked():
     program = StudentProgram(known("walk_client", "spins_in_a_thread"))
-    second = line_of(program, "handle.cancel_goal_async()", 1)
-    (node,) = [
-        one for one in program.every(ast.Attribute) if one.lineno == second and one.attr.startswith("cancel")
-    ]
-    led, _ = program.condition(node)
+    led, _ = program.condition(second_cancel(program))
     assert led.lineno == line_of(program, "except KeyboardInterrupt:")
 
 

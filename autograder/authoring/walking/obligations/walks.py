@@ -19,7 +19,6 @@ from autograder.authoring.walking.truth import (
     STOP_TIME,
     require_accepted,
     require_standing,
-    stop_speed,
 )
 from humanoid_interfaces.msg import RobotState
 from ros_runtime.angles import wrap
@@ -102,7 +101,7 @@ def stands_at_success(goal: Goal) -> str | None:
     require_accepted(goal)
     watched = goal.run.robot_between(since, min(since + STANDING_TIME, end))
     when = "when the goal SUCCEEDED, and"
-    require_standing(watched, when, since, "the result", _SETTLE, stop_speed(goal.run))
+    require_standing(watched, when, since, "the result", _SETTLE, goal.run.robot_ready.still)
     return "a goal where it stands" if life.initial_distance(goal) < life.AT_GOAL_DISTANCE else "a walk"
 
 
@@ -152,7 +151,7 @@ def stands_without_a_goal(run: Transcript) -> str | None:
     """Without an active goal the robot stands where it is."""
     if not run.ground_truth or not run.goals:
         return None
-    limit = stop_speed(run)
+    limit = run.robot_ready.still
     for robot in run.ground_truth:
         if robot.mode in (RobotState.FALLEN, RobotState.OFF):
             break
