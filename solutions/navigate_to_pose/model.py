@@ -10,7 +10,7 @@ from autograder.authoring import ABORTED, SUCCEEDED, Goal, ev, expect, goals, no
 from autograder.authoring.walking import life, objections
 from autograder.authoring.walking.objections import accepting, objection, rejects
 from autograder.authoring.walking.obligations import cancels, ends, reporting, walks
-from autograder.authoring.walking.path import STRIDE, length_walked, walking_speed
+from autograder.authoring.walking.path import STRIDE, length_walked, length_without_sway, walking_speed
 from autograder.authoring.walking.planar import error
 from autograder.authoring.walking.reports import require_error_code
 from autograder.authoring.walking.truth import require_arrival, require_stopped
@@ -35,6 +35,7 @@ ESTIMATE_FACTOR = 2.0  # by which an estimate may be wrong
 HALF_WAY = 25.0, 75.0  # percent
 COMPLETE = 99.5  # percent
 LOST_AT_A_TURN = 0.2  # m; where the robot turns back, up to half a leg before and after it may not be counted
+GREATEST_FILTER = 0.2  # m; a server may add a distance only when it is this long
 PATH_SHARE, MIN_PATH_SLACK = 0.15, 0.25  # by which distance_traveled may be wrong: share of the path; m
 MAX_DETOURS = 3  # for one detour; a server may count the turn and the walk back separately
 _NUMBER = re.compile(r"[-+]?\d+([.,]\d+)?")
@@ -377,10 +378,9 @@ def measures_its_path(goal: Goal) -> str | None:
     else:
         help = "Add to the path in every round of the loop, from acceptance to the end, also while the robot turns."
     slack = max(PATH_SHARE * walked, MIN_PATH_SLACK)
-    least, most = (
-        directly - slack - (2 if detour else 0 if ends_standing else 1) * LOST_AT_A_TURN,
-        walked + slack,
-    )
+    lost = (2 if detour else 0 if ends_standing else 1) * LOST_AT_A_TURN
+    filtered = length_without_sway(goal.run, goal.accepted_at, end.t, GREATEST_FILTER)
+    least, most = min(directly - lost, filtered) - slack, walked + slack
     expect(
         least <= claimed <= most,
         expected=f"result.distance_traveled about {walked:.2f} m ({least:.2f} to {most:.2f} m), the path of the pelvis "

@@ -26,6 +26,20 @@ def length_walked(run: RobotRecord, start: float, end: float, spacing: float = S
     return length([_middle(run, t) for t in dict.fromkeys([*times, end])])
 
 
+def length_without_sway(run: RobotRecord, start: float, end: float, spacing: float) -> float:
+    """Return how far (m) the robot walked between two moments (s), as a server measures it that filters by distance.
+
+    A point of the pelvis's path counts only if it is farther than `spacing` (m) from the last one that counts. Small
+    steps in place, with which a robot turns, do not count, whatever its sway.
+    """
+    positions = [(robot.x, robot.y) for robot in run.robot_between(start, end)]
+    counted = positions[:1]
+    for position in positions:
+        if math.dist(position, counted[-1]) > spacing:
+            counted.append(position)
+    return length([*counted, *positions[-1:]])
+
+
 def length(points: Sequence[Point]) -> float:
     """Return the length (m) of a polyline."""
     return sum(math.dist(one, next) for one, next in pairwise(points))

@@ -9,7 +9,7 @@ import pytest
 
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.robot_record import RobotRecord
-from autograder.authoring.walking.path import length, length_walked, walking_speed
+from autograder.authoring.walking.path import length, length_walked, length_without_sway, walking_speed
 from humanoid_interfaces.msg import RobotState
 from records import robot
 
@@ -45,3 +45,11 @@ def test_the_way_back_is_a_part_of_the_path() -> None:
     # The mean cuts the point where it turns round, by half a stride's way.
     assert 1.8 - 0.3 * STRIDE / 2 - 0.05 < length_walked(run, 1.0, 7.0) < 1.8
     assert walking_speed(run, 2.0) == pytest.approx(0.3, abs=0.03)
+
+
+def test_a_path_filtered_by_distance_contains_neither_sway_nor_the_last_corner() -> None:
+    run = walk(lambda t: 0.3 * min(t, 8.0 - t), 8.0)
+    assert length_without_sway(run, 1.0, 7.0, 0.2) == pytest.approx(1.8, abs=0.25)
+    in_place = walk(lambda t: 0.0, 8.0)
+    assert length_without_sway(in_place, 1.0, 7.0, 0.2) < 2 * SWAY
+    assert length_without_sway(in_place, 1.001, 1.002, 0.2) == 0.0

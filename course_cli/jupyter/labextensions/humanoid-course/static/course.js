@@ -1,8 +1,9 @@
 // What JupyterLab lacks for the course. A prebuilt extension, written by hand: it needs no package of JupyterLab.
 
 const PANEL = "Robot"; // the title that lab/pictures/panel.py gives to it
-const LAYOUT_TIMEOUT = 20; // s, for a chapter on a busy machine
-const STEADY = 15; // times that a heading was seen at the same place; JupyterLab may still scroll back to the first cell
+const OPEN_TIMEOUT = 120; // s, for a chapter on a busy machine
+const LAYOUT_TIMEOUT = 30; // s, from the time at which its heading is there
+const STEADY = 25; // times that a heading was seen at the same place; JupyterLab may still scroll back to the first cell
 const PERIOD = 200; // ms
 
 const ARROWS = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"];
@@ -43,14 +44,16 @@ function select(notebook, heading) {
 // JupyterLab scrolls as soon as a notebook is read, when its cells have no height yet.
 async function land(shell, path, fragment) {
   const input = new AbortController();
+  const { signal } = input;
   for (const kind of ["wheel", "keydown", "pointerdown"]) {
-    document.addEventListener(kind, () => input.abort(), { capture: true, signal: input.signal });
+    document.addEventListener(kind, () => input.abort(), { capture: true, signal });
   }
   const id = CSS.escape(decodeURIComponent(fragment.slice(1)));
-  const end = Date.now() + 1000 * LAYOUT_TIMEOUT;
-  for (let seen = 0, place = null; seen < STEADY && Date.now() < end && !input.signal.aborted; await pause()) {
+  let end = Date.now() + 1000 * OPEN_TIMEOUT;
+  for (let seen = 0, place; seen < STEADY && Date.now() < end && !signal.aborted; await pause()) {
     const notebook = [...shell.widgets("main")].find((widget) => widget.context?.path === path);
     const heading = notebook?.node.querySelector(`[id="${id}"], [data-jupyter-id="${id}"]`);
+    if (heading && place === undefined) end = Date.now() + 1000 * LAYOUT_TIMEOUT;
     const { top, height } = heading?.getBoundingClientRect() ?? {};
     seen = height && top === place ? seen + 1 : 0; // without height while the notebook is hidden
     heading?.scrollIntoView();
