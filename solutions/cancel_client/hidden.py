@@ -93,7 +93,7 @@ cancels_once = check_of(
     follows(2),
     title="It cancels the goal only once, however early and often q is typed, and whatever the response",
     on=OFTEN,
-    needs=checks.q_cancels_the_goal,
+    needs=checks.remembers_an_early_q,
     see="07_cancel_and_preempt#late-why",
 )
 
