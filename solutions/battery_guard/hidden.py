@@ -186,6 +186,7 @@ waits_no_longer_than_5_s = once_it_waits(
     model.waits_5_s_for_each,
     title="If CANCELED or STANDING does not come within 5 s, it exits with status 4",
     on=[NEVER_ANSWERED, NEVER_STANDS, NEVER_CANCELED],
+    needs=[checks.waits_until_the_robot_stands, checks.ctrl_c_cancels_the_goal],
 )
 gives_up_in_silence = check_of(
     [model.ends_in_silence, model.says_why],
