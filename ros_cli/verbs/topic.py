@@ -49,7 +49,7 @@ def print_info(options: Namespace) -> None:
     name = absolute(options.topic_name)
     end = "\n\n" if options.verbose else "\n"
     with CommandNode(options.spin_time) as command:
-        command.discover(lambda: name in command.topics())
+        command.discover(lambda: name in command.topics(), f"the topic {name}")
         types = _types(command, name)
         publishers = command.node.get_publishers_info_by_topic(name)
         subscriptions = command.node.get_subscriptions_info_by_topic(name)
