@@ -8,6 +8,8 @@ import textwrap
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+from ros_runtime.terminal import is_terminal
+
 DIFFERENT_NAMESPACE = 0.8  # the least similarity (0 to 1) of two full names whose namespaces differ
 
 
@@ -18,7 +20,7 @@ class CommandError(Exception):
 def print_message(message: object) -> None:
     """Print a message on stderr; in a terminal its lines are broken between words."""
     lines = str(message).splitlines()
-    if sys.stderr.isatty():
+    if is_terminal(sys.stderr):
         width = shutil.get_terminal_size().columns
         lines = [textwrap.fill(line, width, break_long_words=False, break_on_hyphens=False) for line in lines]
     print("\n".join(lines), file=sys.stderr, flush=True)

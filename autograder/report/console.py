@@ -12,6 +12,8 @@ from rich.cells import cell_len
 from rich.console import Console
 from rich.text import Text
 
+from ros_runtime.terminal import is_terminal
+
 FILE_WIDTH = 200  # characters, of tables that go to a file or a pipe; it breaks no path
 # Colours that can be read on white and on black; each repeats what a word or a mark says.
 GOOD, BAD, NOTICE, OTHER = "green", "bold red", "magenta", "bold blue"
@@ -31,7 +33,7 @@ class LineConsole(Console):
     def print(self, *objects: Any, **settings: Any) -> None:
         """Print texts as lines of words, and other objects at the console's width."""
         is_text = all(isinstance(each, str | Text) for each in objects)
-        if objects and is_text and self.file.isatty():
+        if objects and is_text and is_terminal(self.file):
             markup = settings.pop("markup", None)
             texts = [
                 self.render_str(each, markup=markup) if isinstance(each, str) else each for each in objects

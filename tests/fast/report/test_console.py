@@ -47,6 +47,11 @@ def test_a_terminal_gets_lines_of_whole_words_with_their_indent(kind: type) -> N
     )
 
 
+def test_a_cell_gets_whole_lines_because_its_page_breaks_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("JPY_PARENT_PID", "1")
+    assert printed(f"written to {PATH}, unchanged") == f"written to {PATH}, unchanged\n"
+
+
 def test_a_path_is_not_broken_so_that_it_can_be_copied() -> None:
     assert printed(f"written to {PATH}, unchanged", markup=False) == f"written to\n{PATH},\nunchanged\n"
 
