@@ -84,15 +84,22 @@ class CommandNode:
         while time.monotonic() < min(changed + self._quiet_time(seen, is_there), latest):
             time.sleep(QUERY_PERIOD)
             if wanted and time.monotonic() > began + NOTICE_AFTER and not is_there():
-                print_message(f"looking for {wanted} …")
+                _say_wanted(wanted)
                 wanted = ""
             graph = self._graph()
             if graph != seen or UNKNOWN_NODE in graph.nodes or self._has_nameless_endpoints():
                 seen, changed = graph, time.monotonic()
 
-    def find(self, is_there: Callable[[], bool]) -> bool:
-        """Wait until `is_there` is true, at most MISSING_FACTOR times the spin time; return whether it is."""
-        return self.wait_until(is_there, MISSING_FACTOR * self._spin_time)
+    def find(self, is_there: Callable[[], bool], wanted: str = "") -> bool:
+        """Wait until `is_there` is true, at most MISSING_FACTOR times the spin time; return whether it is.
+
+        A line on stderr names what is `wanted` while it is missing.
+        """
+        if self.wait_until(is_there, NOTICE_AFTER):
+            return True
+        if wanted:
+            _say_wanted(wanted)
+        return self.wait_until(is_there, MISSING_FACTOR * self._spin_time - NOTICE_AFTER)
 
     def wait_until(self, condition: Callable[[], Any], timeout: float = float("inf")) -> bool:
         """Wait for a condition on the graph; return whether it came true within `timeout` s."""
@@ -170,6 +177,10 @@ class CommandNode:
             self._executor.spin()
         except ExternalShutdownException:
             return
+
+
+def _say_wanted(wanted: str) -> None:
+    print_message(f"looking for {wanted} …")
 
 
 def full_name(name: str, namespace: str) -> str:
