@@ -23,7 +23,7 @@ from autograder.hand_in_notice import hidden_checks_notice, saved_work_notice
 from autograder.isolation.availability import available_isolation
 from autograder.lab_hour import share, unshare
 from autograder.recording.kept import Recordings, keep
-from autograder.report.console import LineConsole
+from autograder.report.console import NOTICE, LineConsole
 from autograder.report.running import RunningLine
 from autograder.report.table import grade_table, print_beginning, print_retry, print_verdict, summary
 from ros_runtime.course_error import CourseError
@@ -144,7 +144,7 @@ def check_with_progress(
         said = (
             f"No isolation: {isolation.reason}. All visible checks are run; a grade made here is “untrusted”."
         )
-        console.print(said, style="yellow", markup=False)
+        console.print(said, style=NOTICE, markup=False)
     table = _notebook_table(loaded) if Console().is_jupyter else None
     with RunningLine(console, loaded.checks, in_notebook=table is not None) as line:
 

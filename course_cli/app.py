@@ -18,8 +18,9 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
-from autograder.report.console import LineConsole
+from autograder.report.console import BAD, LineConsole
 from course_cli.ending import user_message
+from course_cli.help_text import make_readable, paragraphs
 from ros_runtime.course_error import CourseError
 from ros_runtime.project import COURSE, PROJECT
 
@@ -59,9 +60,9 @@ COMMANDS: dict[str, Command] = {
         "Show the whole toolkit at work: a walk, a cancel, three graded submissions.", FOR_INSTRUCTORS
     ),
     "lab": Command("Open the chapters and exercises.", forwards_arguments=True, forwards_help=False),
-    "check": Command("Check your own solution of an exercise."),
-    "submit": Command("Write the files that you hand in, and print what they contain."),
-    "sim": Command("Run the robot node alone.", forwards_arguments=True),
+    "check": Command("Run the visible checks of an exercise on your own program."),
+    "submit": Command("Write the files that you hand in, and print what they hold."),
+    "sim": Command("Run the robot alone, without a notebook.", forwards_arguments=True),
     "ros": Command(
         "Run a ros2 command: topic, service, action, node, param, interface.", forwards_arguments=True
     ),
@@ -71,7 +72,7 @@ COMMANDS: dict[str, Command] = {
     "requests": Command(
         "Grade the programs of regrade requests again, and draft the replies.", FOR_INSTRUCTORS
     ),
-    "replay": Command("Show a recorded arena: in the web view, as a film, as text."),
+    "replay": Command("Show a recording of a check: in a browser, as a film, as text."),
     "questions": Command("Make questions for each student about their own program.", FOR_INSTRUCTORS),
     "merge": Command("Merge the parts of a class that were graded separately.", FOR_INSTRUCTORS),
     "export": Command("Write the grades for another platform.", FOR_INSTRUCTORS),
@@ -129,7 +130,7 @@ def _keep_work() -> None:
 
     if os.access(COURSE, os.W_OK):
         for sentence in keep_work():
-            print(f"course: {sentence}", file=sys.stderr)
+            LineConsole(stderr=True).print(f"course: {sentence}", markup=False)
 
 
 def _require_utf8() -> None:
@@ -146,12 +147,13 @@ class _Course(TyperGroup):
         try:
             return super().invoke(ctx)
         except CourseError as error:
-            LineConsole().print(str(error), style="red", markup=False)
+            LineConsole().print(str(error), style=BAD, markup=False)
             raise typer.Exit(error.exit_status) from error
 
 
 def app(chosen: str | None) -> typer.Typer:
     """Return the application, which lists every command but has imported only the module of `chosen`."""
+    make_readable()
     course = typer.Typer(
         cls=_Course, help=HELP, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False
     )
@@ -162,7 +164,7 @@ def app(chosen: str | None) -> typer.Typer:
         if isinstance(target, typer.Typer):
             course.add_typer(target, name=name, help=command.summary)
         else:
-            course.command(name, context_settings=command.settings)(target)
+            course.command(name, help=paragraphs(target.__doc__), context_settings=command.settings)(target)
     # Without a callback, Typer would drop the name of a single command.
     course.callback()(lambda: None)
     return course

@@ -42,5 +42,10 @@ DatesOption = Annotated[
 ]
 
 JobsOption = Annotated[
-    int, typer.Option(min=1, help="number of arenas that run in parallel; each needs a processor core")
+    int,
+    typer.Option(
+        min=1,
+        metavar="NUMBER",
+        help="number of checks that run at the same time; each needs a processor core",
+    ),
 ]

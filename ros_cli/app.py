@@ -8,11 +8,11 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from argparse import ArgumentParser, RawDescriptionHelpFormatter
+from argparse import ArgumentParser
 from collections.abc import Sequence
 from typing import Any
 
-from ros_cli.errors import CommandError
+from ros_cli.errors import CommandError, print_message
 from ros_cli.real_ros2 import real_ros2
 from ros_cli.verbs import action, interface, node, param, service, topic
 from ros_runtime import notebook_domains
@@ -39,7 +39,7 @@ def main(arguments: Sequence[str] | None = None, *, program: str = "ros2") -> in
     try:
         join_domain()
     except CommandError as error:
-        print(error, file=sys.stderr)
+        print_message(error)
         return 1
     if (real := real_ros2()) is not None:
         os.execv(real, [real, *arguments])
@@ -54,7 +54,7 @@ def run(arguments: Sequence[str], program: str = "ros2") -> int:
     try:
         return options.run(options) or 0
     except CommandError as error:
-        print(error, file=sys.stderr)
+        print_message(error)
         return 1
     except KeyboardInterrupt:
         return signal.SIGINT
@@ -79,7 +79,7 @@ def join_domain() -> None:
 
 def command_line(program: str) -> ArgumentParser:
     """Return the parser of all groups and verbs; the parsed options have `run`, a function that takes the options."""
-    look: dict[str, Any] = {"epilog": HELP, "formatter_class": RawDescriptionHelpFormatter}
+    look: dict[str, Any] = {"epilog": HELP}
     words = "The ros2 commands that the course uses, with the words and the output of ros2cli."
     parser = ArgumentParser(prog=program, description=words, **look)
     _show_help_without_verb(parser)

@@ -20,12 +20,16 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
 
+from ros_cli.errors import print_message
 from ros_runtime.notebook_domains import expected_nodes
 from ros_runtime.reachability import wait_until_reachable
 
 SPIN_TIME = 0.5  # s, as in ros2cli
-# Multiple of the spin time to wait while the wanted entity is missing: Fast DDS repeats a lost announcement after 3 s.
+# Multiples of the spin time to wait while the wanted entity is missing: in an empty graph 5 s, because Fast DDS
+# repeats a lost announcement after 3 s; beside other nodes 3 s, in which a new node announces itself 30 times.
 MISSING_FACTOR = 10
+MISSING_BESIDE_OTHERS_FACTOR = 6
+NOTICE_AFTER = 0.3  # s without the wanted entity, after which a line names it
 DISCOVERY_LIMIT_FACTOR = 16  # multiple of the spin time; then discovery ends although the graph changes
 QUERY_PERIOD = 0.02  # s between two queries of the graph, because rclpy does not report its changes
 ROSOUT = "/rosout"  # a topic that every node publishes
@@ -68,23 +72,34 @@ class CommandNode:
         self._thread.join(1.0)
         self.node.destroy_node()
 
-    def discover(self, is_there: Callable[[], bool] = lambda: True) -> None:
+    def discover(self, is_there: Callable[[], bool] = lambda: True, wanted: str = "") -> None:
         """Wait until the graph has not changed for the spin time, and the names of all its nodes are known.
 
-        While there is no other node, or `is_there` is false, the wait is ten times as long.
+        The wait is six times as long while `is_there` is false, and ten times while there is no other node. A line on
+        stderr names what is `wanted` while it is missing.
         """
-        changed = time.monotonic()
+        changed = began = time.monotonic()
         latest = changed + DISCOVERY_LIMIT_FACTOR * self._spin_time
         seen = self._graph()
         while time.monotonic() < min(changed + self._quiet_time(seen, is_there), latest):
             time.sleep(QUERY_PERIOD)
+            if wanted and time.monotonic() > began + NOTICE_AFTER and not is_there():
+                _say_wanted(wanted)
+                wanted = ""
             graph = self._graph()
             if graph != seen or UNKNOWN_NODE in graph.nodes or self._has_nameless_endpoints():
                 seen, changed = graph, time.monotonic()
 
-    def find(self, is_there: Callable[[], bool]) -> bool:
-        """Wait until `is_there` is true, at most MISSING_FACTOR times the spin time; return whether it is."""
-        return self.wait_until(is_there, MISSING_FACTOR * self._spin_time)
+    def find(self, is_there: Callable[[], bool], wanted: str = "") -> bool:
+        """Wait until `is_there` is true, at most MISSING_FACTOR times the spin time; return whether it is.
+
+        A line on stderr names what is `wanted` while it is missing.
+        """
+        if self.wait_until(is_there, NOTICE_AFTER):
+            return True
+        if wanted:
+            _say_wanted(wanted)
+        return self.wait_until(is_there, MISSING_FACTOR * self._spin_time - NOTICE_AFTER)
 
     def wait_until(self, condition: Callable[[], Any], timeout: float = float("inf")) -> bool:
         """Wait for a condition on the graph; return whether it came true within `timeout` s."""
@@ -153,13 +168,19 @@ class CommandNode:
         return any(endpoint.node_name == UNKNOWN_NODE for endpoint in endpoints)
 
     def _quiet_time(self, graph: _Graph, is_there: Callable[[], bool]) -> float:
-        return self._spin_time * (1 if len(graph.nodes) > 1 and is_there() else MISSING_FACTOR)
+        if len(graph.nodes) == 1:
+            return self._spin_time * MISSING_FACTOR
+        return self._spin_time * (1 if is_there() else MISSING_BESIDE_OTHERS_FACTOR)
 
     def _spin(self) -> None:
         try:
             self._executor.spin()
         except ExternalShutdownException:
             return
+
+
+def _say_wanted(wanted: str) -> None:
+    print_message(f"looking for {wanted} …")
 
 
 def full_name(name: str, namespace: str) -> str:

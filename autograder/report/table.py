@@ -14,17 +14,18 @@ from rich.text import Text
 from autograder.authoring.checks import Check
 from autograder.engine.exercise import Exercise
 from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.report.console import BAD, GOOD, NOTICE, OTHER
 
 LOG_LINES = 6
 NEAR_TIME = 5.0  # s before and after a failure, in which lines of the log may tell why
 
 MARKS = {
-    "passed": ("✓", "green"),
-    "failed": ("✗", "red"),
-    "not run": ("–", "yellow"),
-    "error": ("!", "magenta"),
-    "to mark": ("…", "cyan"),
-    "marked": ("•", "cyan"),
+    "passed": ("✓", GOOD),
+    "failed": ("✗", BAD),
+    "not run": ("–", NOTICE),
+    "error": ("!", NOTICE),
+    "to mark": ("…", OTHER),
+    "marked": ("•", OTHER),
 }
 SHOWN = {"error": "not graded"}  # what the tables call a status
 LONGEST_TEXT = 8000  # characters
@@ -130,7 +131,7 @@ def class_table(grades: Sequence[Grade]) -> RenderableType:
     for grade in grades:
         if grade.status == "not graded":
             why = Text(grade.why_not_graded)
-            table.add_row(grade.student, grade.exercise, Text("not graded", "magenta"), why)
+            table.add_row(grade.student, grade.exercise, Text("not graded", NOTICE), why)
         elif grade.status == "to mark":
             table.add_row(
                 grade.student, grade.exercise, Text("to mark", MARKS["to mark"][1]), Text(summary(grade))
@@ -144,8 +145,8 @@ def class_table(grades: Sequence[Grade]) -> RenderableType:
 
 def progress_line(grade: Grade, *, cached: bool = False) -> Text:
     """Return the line to print when one submission is graded."""
-    colours = {"not graded": "magenta", "to mark": MARKS["to mark"][1]}
-    colour = colours.get(grade.status, "green" if grade.all_passed else "yellow")
+    colours = {"not graded": NOTICE, "to mark": MARKS["to mark"][1]}
+    colour = colours.get(grade.status, GOOD if grade.all_passed else NOTICE)
     note = "  (the same program was graded before)" if cached else ""
     return Text.assemble(
         (f"{grade.student} · {grade.exercise}  ", ""), (summary(grade).splitlines()[0], colour), (note, "dim")

@@ -14,24 +14,28 @@ from autograder.engine.exercise import essay_names, exercise_names, scenario_fil
 from autograder.engine.submission import UnusableSubmission, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.hand_in_notice import hidden_checks_notice
-from autograder.report.console import LineConsole
+from autograder.report.console import NOTICE, LineConsole
 from course_cli.options import CourseOption, JobsOption
 from course_cli.own_work import own_work
 from ros_runtime.course_error import COMMAND_FAILED, NOT_GRADED
 
 
 def check(
-    exercise: Annotated[str, typer.Argument(help="the exercise, such as battery_service")],
+    exercise: Annotated[str, typer.Argument(metavar="EXERCISE", help="such as battery_service")],
     file: Annotated[
         Path | None,
         typer.Argument(
-            help="your .py file, notebook or folder (default: your latest file here, else in exercises/EXERCISE/)"
+            metavar="FILE",
+            help="your .py file, notebook or folder (default: your latest file here, else in exercises/EXERCISE/)",
         ),
     ] = None,
-    json_file: Annotated[Path | None, typer.Option("--json", help="write the verdicts to this file")] = None,
+    json_file: Annotated[
+        Path | None,
+        typer.Option("--json", metavar="FILE", help="also write the verdicts to this file, for programs"),
+    ] = None,
     record: Annotated[
         bool,
-        typer.Option("--record", help="keep an MCAP file of each scenario in recordings/EXERCISE/"),
+        typer.Option("--record", help="record what happens, in recordings/EXERCISE/, for `course replay`"),
     ] = False,
     page: Annotated[
         Path | None,
@@ -42,17 +46,18 @@ def check(
     robot: Annotated[
         str | None,
         typer.Option(
-            help="an extra without points: check a walking program on another robot, g1 (docs/robot.md)"
+            metavar="g1",
+            help="an extra without points: check a walking program on the robot G1 (docs/robot.md)",
         ),
     ] = None,
     jobs: JobsOption = 2,
     course: CourseOption = None,
 ) -> None:
-    """Check your own solution of an exercise."""
+    """Run the visible checks of an exercise on your own program, and say what to mend."""
     console = LineConsole()
     path, left_aside = own_work(exercise, file)
     for line in left_aside:
-        console.print(f"left aside: {line}", style="yellow", markup=False)
+        console.print(f"left aside: {line}", style=NOTICE, markup=False)
     if robot and page:
         raise UnusableSubmission(
             "--page shows points, and a check on another robot gives none: leave --page or --robot out"

@@ -27,10 +27,12 @@ PARTS = ("start_here.ipynb", "chapters", "exercises", "docs")
 def lab(context: typer.Context) -> None:
     """Open JupyterLab with the chapters and exercises, at the page that shows your progress.
 
-    The command also prints JupyterLab's address. The terminals and cells have the command `ros2`. Further arguments go
-    to JupyterLab: --no-browser, --port 8890, --help-all. If several students share the course and cannot write to it,
-    your notebooks are in ~/humanoid_course, or in the folder COURSE_WORK. If JupyterHub starts this command, it runs
-    the user's server.
+    The command also prints JupyterLab's address. Ctrl-C ends JupyterLab with all kernels, robots and nodes. The
+    terminals and cells have the command `ros2`. Further arguments go to JupyterLab: --no-browser, --port 8890,
+    --help-all.
+
+    If several students share the course and cannot write to it, your notebooks are in ~/humanoid_course, or in the
+    folder COURSE_WORK. If JupyterHub starts this command, it runs the user's server.
     """
     try:
         folder = work_folder()

@@ -17,9 +17,7 @@ from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 
 def replay(
-    file: Annotated[
-        Path, typer.Argument(help="an .mcap file that `check --record` or `grade --record` wrote")
-    ],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="an .mcap file that `--record` wrote")],
     film_file: Annotated[
         Path | None,
         typer.Option("--film", metavar="OUT", help="write a film, .webp or .gif, and show nothing"),
@@ -33,12 +31,19 @@ def replay(
         ),
     ] = None,
     seconds: Annotated[
-        float | None, typer.Option(help="number of seconds to show (default around a verdict: 6)")
+        float | None, typer.Option(help="number of seconds to show (default: 6 around a verdict)")
     ] = None,
-    camera: Annotated[str, typer.Option(help="the film's camera: track, side or front")] = "track",
-    port: Annotated[int, typer.Option(help="the web view's port (default: the first free from 8080 on)")] = 0,
+    camera: Annotated[
+        str, typer.Option(metavar="NAME", help="the film's camera: track, side or front")
+    ] = "track",
+    port: Annotated[
+        int,
+        typer.Option(
+            show_default=False, help="the browser view's port (default: the first free from 8080 on)"
+        ),
+    ] = 0,
 ) -> None:
-    """Show a recorded arena: in the web view, as a film, or as text."""
+    """Show a recording of a check: in a browser, as a film, or as text."""
     console = LineConsole()
     try:
         kind = format_of(film_file) if film_file else "WEBP"

@@ -14,7 +14,7 @@ import typer
 from autograder.engine.exercise import essay_names, file_names
 from autograder.engine.submission import Submission, UnusableSubmission, read_submission
 from autograder.hand_in_notice import hidden_checks_notice
-from autograder.report.console import LineConsole
+from autograder.report.console import NOTICE, LineConsole
 from course_cli.options import CourseOption
 from course_cli.own_work import own_work
 from ros_runtime.course_error import COMMAND_FAILED
@@ -23,20 +23,26 @@ from ros_runtime.self_checks import last_checks
 
 
 def submit(
-    exercises: Annotated[list[str], typer.Argument(help="the exercises, such as battery_service")],
+    exercises: Annotated[
+        list[str], typer.Argument(metavar="EXERCISE", help="one or more, such as battery_service")
+    ],
     file: Annotated[
         Path | None,
-        typer.Option(help="your notebook or .py file of one exercise (default: what `check` finds)"),
+        typer.Option(
+            metavar="FILE", help="your notebook or .py file of one exercise (default: what `check` finds)"
+        ),
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option(help="the folder to write to (default: hand_in/ in the course's folder, or here)"),
+        typer.Option(
+            metavar="FOLDER", help="where to write (default: hand_in/ in the course's folder, or here)"
+        ),
     ] = None,
     course: CourseOption = None,
 ) -> None:
     """Write one file for each exercise to hand in, and print what it holds.
 
-    A program that Python cannot run replaces no program that it can run.
+    If Python cannot run a program, an earlier file with a program that it can run stays.
     """
     console = LineConsole()
     if file and len(exercises) > 1:
@@ -48,12 +54,12 @@ def submit(
         path, left_aside = own_work(exercise, file)
         submission = read_submission(path, exercise)
         for line in left_aside:
-            console.print(f"left aside: {line}", style="yellow", markup=False)
+            console.print(f"left aside: {line}", style=NOTICE, markup=False)
         target = _target(path, exercise, out)
         before = _earlier(target, exercise)
         if error := _syntax_error(submission):
             broken.append(exercise)
-            console.print(f"Python cannot run {path}: {error}", style="yellow", markup=False)
+            console.print(f"Python cannot run {path}: {error}", style=NOTICE, markup=False)
             if before and not _syntax_error(before):
                 console.print(f"  {target} is not replaced: it keeps {_in_words(before)}", markup=False)
                 continue
@@ -63,14 +69,14 @@ def submit(
             f"  fingerprint {submission.fingerprint}: your grade's page shows it again", markup=False
         )
         if before and before.fingerprint != submission.fingerprint:
-            console.print(f"  it replaces another program, {_in_words(before)}", style="yellow", markup=False)
+            console.print(f"  it replaces another program, {_in_words(before)}", style=NOTICE, markup=False)
         if exercise in essay_names():
             console.print("  A person marks it.")
         elif checked := _last_check(submission):
             console.print(f"  Last self-check of this program: {checked}. {hidden_checks_notice(exercise)}")
         elif not error:
             unchecked.append(exercise)
-            console.print("  This program has not been checked.", style="yellow")
+            console.print("  This program has not been checked.", style=NOTICE)
     console.print(_next_step(broken, unchecked, out), markup=False)
     if broken:
         raise typer.Exit(COMMAND_FAILED)

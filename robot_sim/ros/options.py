@@ -63,7 +63,9 @@ def _parser() -> argparse.ArgumentParser:
         "--port", type=int, default=0, help="port of the view (default: the first free one from 8080 on)"
     )
     parser.add_argument("--robot", choices=ROBOTS, default="humanoid", help="which robot (default humanoid)")
-    parser.add_argument("--scene", choices=tuple(SCENES), default="flat")
+    parser.add_argument(
+        "--scene", choices=tuple(SCENES), default="flat", help="what is around the robot (default flat)"
+    )
     parser.add_argument("--crouch", action="store_true", help="begin in a crouch instead of standing")
     parser.add_argument("--seed", type=int, default=0, help="seed of the sensors' noise (default 0)")
     parser.add_argument("--ground-truth-fd", type=int, help=argparse.SUPPRESS)

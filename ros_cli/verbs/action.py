@@ -48,7 +48,7 @@ def print_info(options: Namespace) -> None:
             return [nodes_with(command, action, partial(by_node, command.node)) for by_node in BY_NODE]
 
         # The action's name is discovered before the names of its nodes.
-        command.discover(lambda: any(clients_and_servers()))
+        command.discover(lambda: any(clients_and_servers()), f"the action {action}")
         clients, servers = clients_and_servers()
     print(f"Action: {options.action_name}")
     for kind, nodes in (("clients", clients), ("servers", servers)):

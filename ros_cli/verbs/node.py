@@ -29,7 +29,7 @@ def print_info(options: Namespace) -> None:
     """Print a node's subscriptions, publishers, services and actions."""
     name = absolute(options.node_name)
     with CommandNode(options.spin_time) as command:
-        command.discover(lambda: name in command.node_names(hidden=True))
+        command.discover(lambda: name in command.node_names(hidden=True), f"the node {name}")
         names = command.node_names(hidden=True)
         if names.count(name) > 1:
             print(

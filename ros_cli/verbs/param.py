@@ -161,7 +161,7 @@ def _node_of(options: Namespace) -> Iterator[tuple[CommandNode, AsyncParameterCl
     """Yield a command node and a client of the node's parameters, once that node answers."""
     name = absolute(options.node_name)
     with CommandNode(options.spin_time) as command:
-        command.find(lambda: name in command.node_names(hidden=True))
+        command.find(lambda: name in command.node_names(hidden=True), f"the node {name}")
         if not command.wait_until(lambda: name in command.node_names(hidden=True), options.timeout):
             raise _not_found(name, command.node_names())
         yield command, _client(command, name)

@@ -47,7 +47,7 @@ def print_type(options: Namespace) -> None:
     """Print the type of a service."""
     name = absolute(options.service_name)
     with CommandNode(options.spin_time) as command:
-        if not command.find(lambda: name in command.services()):
+        if not command.find(lambda: name in command.services(), f"the service {name}"):
             raise unknown("service", name, command.services())
         print(*command.services()[name], sep="\n")
 

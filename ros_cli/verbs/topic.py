@@ -40,7 +40,7 @@ def print_type(options: Namespace) -> None:
     """Print the type of a topic, or all of its types."""
     name = absolute(options.topic_name)
     with CommandNode(options.spin_time) as command:
-        command.find(lambda: name in command.topics())
+        command.find(lambda: name in command.topics(), f"the topic {name}")
         print(*_types(command, name), sep="\n")
 
 
@@ -49,7 +49,7 @@ def print_info(options: Namespace) -> None:
     name = absolute(options.topic_name)
     end = "\n\n" if options.verbose else "\n"
     with CommandNode(options.spin_time) as command:
-        command.discover(lambda: name in command.topics())
+        command.discover(lambda: name in command.topics(), f"the topic {name}")
         types = _types(command, name)
         publishers = command.node.get_publishers_info_by_topic(name)
         subscriptions = command.node.get_subscriptions_info_by_topic(name)
@@ -114,7 +114,7 @@ def print_rate(options: Namespace) -> None:
     """Wait for the topic, then print its rate once a second until Ctrl-C."""
     topic = absolute(options.topic_name)
     with CommandNode(options.spin_time) as command:
-        if not command.find(lambda: topic in command.topics()):
+        if not command.find(lambda: topic in command.topics(), f"the topic {topic}"):
             print(f"WARNING: topic [{topic}] does not appear to be published yet")
             command.wait_until(lambda: topic in command.topics())
         message_type = interface_class(command.topics()[topic][0], "msg")

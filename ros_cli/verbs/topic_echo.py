@@ -44,7 +44,8 @@ def add_to(verbs: Verbs) -> None:
         echo.add_argument(
             f"--qos-{_kind(policy)}",
             choices=policy.short_keys(),
-            help=f"Quality of service {_kind(policy)} setting to subscribe with "
+            metavar="POLICY",
+            help=f"Quality of service {_kind(policy)} setting to subscribe with: {', '.join(policy.short_keys())} "
             "(default: one that is compatible with the publishers)",
         )
 
@@ -54,7 +55,7 @@ def print_messages(options: Namespace) -> None:
     topic = absolute(options.topic_name)
     longest = None if options.full_length else options.truncate_length
     with CommandNode(options.spin_time) as command:
-        command.discover(lambda: topic in command.topics())
+        command.discover(lambda: topic in command.topics(), f"the topic {topic}")
         message_type = _message_type(command, topic, options.message_type)
         select(message_type(), options.field)
         qos = fitting_qos(command.node.get_publishers_info_by_topic(topic))

@@ -32,7 +32,7 @@ PARTS = (
         f"autograder/classroom/batch/{name}.py"
         for name in ("__init__", "collection", "records", "grades_without_run")
     ),
-    *(f"course_cli/{name}.py" for name in ("__init__", "app", "ending", "options", "own_work")),
+    *(f"course_cli/{name}.py" for name in ("__init__", "app", "ending", "help_text", "options", "own_work")),
     *(f"course_cli/commands/{name}.py" for name in ("__init__", "check")),
 )
 _SETUP = f"""#!/usr/bin/env bash

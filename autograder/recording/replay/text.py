@@ -7,14 +7,15 @@ from collections.abc import Iterator
 from rich.text import Text
 
 from autograder.recording.replay.recording import Kind, Moment, Recording
+from autograder.report.console import BAD, GOOD, NOTICE, OTHER
 
 COLOURS = {
     Kind.EVENT: "",
     Kind.FEEDBACK: "dim",
-    Kind.OUTPUT: "cyan",
-    Kind.PASSED: "green",
-    Kind.FAILED: "bold red",
-    Kind.WARNING: "yellow",
+    Kind.OUTPUT: OTHER,
+    Kind.PASSED: GOOD,
+    Kind.FAILED: BAD,
+    Kind.WARNING: NOTICE,
 }
 
 

@@ -165,10 +165,10 @@ def repository(unpacked, tmp_path) -> Path:
     return folder
 
 
-def lines_of_ci(repository: Path) -> list[str]:
+def lines_of_ci() -> list[str]:
     """The commands of both templates that check an exercise."""
     github, gitlab = (
-        yaml.safe_load((repository / "docs/ci" / name).read_text())
+        yaml.safe_load((ROOT / "docs/ci" / name).read_text())
         for name in ("github_actions.yml", "gitlab_ci.yml")
     )
     commands = [step.get("run", "") for step in github["jobs"]["check"]["steps"]] + gitlab["check"]["script"]
@@ -187,7 +187,7 @@ def test_the_ci_commands_distinguish_a_correct_notebook_from_a_wrong_one(reposit
             cell for cell in content.cells if cell.id == "solution"
         ).source = f"%%writefile patterns.py\n{program}"
         nbformat.write(content, notebook)
-    line = lines_of_ci(repository)[right]
+    line = lines_of_ci()[right]
     ran = subprocess.run(
         ["bash", "-e", "-c", line],
         cwd=repository,

@@ -19,6 +19,7 @@ from rclpy.node import Node
 import lab
 from autograder.classroom.archives.student_bundle import README, SHOWN, files_of
 from autograder.engine.exercise import exercise_names, load_exercise
+from course_cli.app import COMMANDS, FOR_EVERYBODY
 
 ROOT = Path(__file__).resolve().parents[3]
 DOCS = ROOT / "docs"
@@ -154,16 +155,51 @@ def test_the_links_of_a_page_lead_somewhere(page: Path) -> None:
     assert [link for link in links if "://" not in link and not (base / link).exists()] == []
 
 
+def pages_of_the_archive() -> dict[Path, str]:
+    """The text of each page and notebook that students see, by its path in their archive."""
+    files = {path.relative_to(ROOT): path for path in files_of(ROOT, SHOWN)}
+    files |= {path.relative_to(ROOT): path for path in ROOT.glob("exercises/*/*.ipynb")}
+    files[Path("README.md")] = ROOT / README
+    return {name: text_of(path) for name, path in files.items() if path.suffix in (".md", ".ipynb")}
+
+
+def text_of(path: Path) -> str:
+    if path.suffix == ".md":
+        return path.read_text()
+    return "\n".join(cell.source for cell in nbformat.read(path, as_version=4).cells)
+
+
+def links_of(name: Path, text: str) -> set[Path]:
+    """The files of this project to which a page links, or which it shows."""
+    links = re.findall(r"\]\(([^)\s#]+)", text)
+    return {Path(os.path.normpath(name.parent / link)) for link in links if "://" not in link}
+
+
 def test_the_pages_of_the_students_archive_link_only_to_what_it_contains() -> None:
-    pages = {path.relative_to(ROOT): path for path in files_of(ROOT, SHOWN)}
-    shown = {*pages, *(path.relative_to(ROOT) for path in ROOT.glob("exercises/*/*.ipynb"))}
+    pages = pages_of_the_archive()
+    shown = {*pages, *(path.relative_to(ROOT) for path in files_of(ROOT, SHOWN))}
     shown |= {folder for path in shown for folder in path.parents}
-    pages[Path("README.md")] = ROOT / README
+    of_pages = {name: text for name, text in pages.items() if name.suffix == ".md"}
     missing = [
-        (str(name), link)
-        for name, path in pages.items()
-        if path.suffix == ".md"
-        for link in re.findall(r"\]\(([^)\s#]+)", path.read_text())
-        if "://" not in link and Path(os.path.normpath(name.parent / link)) not in shown
+        (str(name), str(link)) for name, text in of_pages.items() for link in links_of(name, text) - shown
     ]
     assert missing == []
+
+
+def test_the_students_archive_contains_only_what_its_pages_show() -> None:
+    linked = {link for name, text in pages_of_the_archive().items() for link in links_of(name, text)}
+    linked |= {Path(name) for name in re.findall(r"`(docs/\w+\.md)`", (ROOT / README).read_text())}
+    shown = {path for path in files_of(ROOT, SHOWN) if path.is_relative_to(DOCS)}
+    assert len(shown) > 10
+    assert {path.relative_to(ROOT) for path in shown} - linked == set()
+
+
+def test_the_pages_of_the_students_archive_name_only_commands_that_it_has() -> None:
+    for_others = "|".join(name for name, command in COMMANDS.items() if command.folder != FOR_EVERYBODY)
+    students = {name for name, command in COMMANDS.items() if command.folder == FOR_EVERYBODY}
+    named: dict[str, str] = {}
+    for page, text in pages_of_the_archive().items():
+        named |= dict.fromkeys(re.findall(r"[/!`]course ([a-z]\w*)", text), str(page))
+        named |= dict.fromkeys(re.findall(rf"`({for_others})(?: -[^`]*)?`", text), str(page))
+    assert {"lab", "check", "submit"} <= set(named)
+    assert {name: page for name, page in named.items() if name not in students} == {}

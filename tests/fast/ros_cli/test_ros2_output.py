@@ -15,7 +15,8 @@ from rcl_interfaces.msg import (
 )
 from rclpy.parameter import get_parameter_value
 
-from ros_cli.errors import CommandError, unknown
+from ros_cli.command_node import CommandNode, _Graph
+from ros_cli.errors import CommandError, print_message, unknown
 from ros_cli.verbs.interface import definition
 from ros_cli.verbs.param import as_file, description_lines, value_line
 from ros_cli.verbs.topic import ArrivalRate
@@ -158,6 +159,54 @@ def test_an_unknown_name_is_reported_with_similar_names() -> None:
     names = ["/robot/odom", "/robot/imu"]
     assert str(unknown("topic", "/odom", names)) == "Unknown topic '/odom': did you mean /robot/odom?"
     assert "`topic list` shows" in str(unknown("topic", "/camera", names))
+
+
+def test_only_near_names_are_suggested() -> None:
+    names = ["/robot/odom", "/robot/imu", "/robot/l_gripper/wrench", "/robot/r_gripper/wrench", "/rosout"]
+    assert str(unknown("topic", "/robot/odmo", names)).endswith("did you mean /robot/odom?")
+    assert str(unknown("topic", "/robt/odmo", names)).endswith("did you mean /robot/odom?")
+    assert str(unknown("topic", "/r_gripper/wrench", names)).endswith(
+        "did you mean /robot/l_gripper/wrench or /robot/r_gripper/wrench?"
+    )
+    assert "did you mean" not in str(unknown("topic", "/robot/camera", names))
+
+
+def test_a_message_is_broken_between_words_in_a_terminal_only(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("COLUMNS", "30")
+    print_message("Unknown topic '/robot/odmo': did you mean /robot/odom?\nnext")
+    assert capsys.readouterr().err == "Unknown topic '/robot/odmo': did you mean /robot/odom?\nnext\n"
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    print_message("Unknown topic '/robot/odmo': did you mean /robot/odom?\nnext")
+    assert capsys.readouterr().err == "Unknown topic '/robot/odmo':\ndid you mean /robot/odom?\nnext\n"
+
+
+class _OneTopic(CommandNode):
+    """A command node whose graph has another node and one topic."""
+
+    def __init__(self, spin_time: float) -> None:
+        self._spin_time = spin_time
+
+    def _graph(self) -> _Graph:
+        return _Graph(["humanoid", "_ros2cli_1"], ["/robot/odom"], [])
+
+    def _has_nameless_endpoints(self) -> bool:
+        return False
+
+
+@pytest.mark.parametrize(("topic", "told"), [("/robot/odom", ""), ("/robot/odmo", "looking for it …\n")])
+def test_a_missing_name_is_looked_for_a_while_and_that_is_said(
+    topic: str, told: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    clock = [0.0]
+    monkeypatch.setattr("ros_cli.command_node.time.monotonic", lambda: clock[0])
+    monkeypatch.setattr(
+        "ros_cli.command_node.time.sleep", lambda seconds: clock.__setitem__(0, clock[0] + seconds)
+    )
+    _OneTopic(spin_time=0.5).discover(lambda: topic == "/robot/odom", "it")
+    assert clock[0] == pytest.approx(3.0 if told else 0.5, abs=0.05)
+    assert capsys.readouterr().err == told
 
 
 def test_ticks_end_after_a_given_number_or_never() -> None:

@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+import os
+import pty
+import re
+import select
+import signal
+import socket
 import subprocess
 import sys
+import time
 from importlib.metadata import version
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -12,10 +20,12 @@ import pytest
 from course_cli.app import load
 
 COURSE = Path(sys.executable).with_name("course")
+TIMEOUT = 60.0  # s, for a busy machine
 
 
-def course(*arguments: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([COURSE, *arguments], capture_output=True, text=True, cwd=cwd)
+def course(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    variables = {**os.environ, **environment}
+    return subprocess.run([COURSE, *arguments], capture_output=True, text=True, env=variables)
 
 
 def test_help_lists_the_commands_that_exist_without_importing_them() -> None:
@@ -73,3 +83,60 @@ def test_the_help_of_the_lab_names_what_it_opens() -> None:
 
     assert finished.returncode == 0
     assert "chapters and exercises" in finished.stdout
+
+
+@pytest.mark.parametrize("name", ["lab", "check", "submit", "replay"])
+def test_the_help_has_whole_lines_and_no_names_of_python(name: str) -> None:
+    shown = course(name, "--help", COLUMNS="80").stdout
+    assert not re.search(r"<\w+|\w+\[str\]|\{", shown)
+    above = shown.partition("╭")[0].splitlines()
+    for line, following in pairwise(line.strip() for line in above):
+        if line and following:
+            assert len(line) + len(following.split()[0]) > 70, line
+
+
+@pytest.mark.parametrize("words", [["check", "--help"], ["check"], ["--help"]], ids=" ".join)
+def test_the_help_can_be_read_on_white_and_on_black(words: list[str]) -> None:
+    finished = course(*words, COLUMNS="80", FORCE_COLOR="1", TERM="xterm")
+    shown = finished.stdout + finished.stderr
+    styles = {frozenset(codes.split(";")) for codes in re.findall(r"\x1b\[([\d;]+)m", shown)} - {
+        frozenset({"0"})
+    }
+    assert {"1"} in styles
+    dark_red, yellow, cyan, light = {"31"}, {"33", "93"}, {"36", "96"}, {"37", "97"}
+    assert [style for style in styles if style & (yellow | cyan | light)] == []
+    assert [style for style in styles if style & dark_red and "1" not in style] == []
+
+
+def test_one_ctrl_c_ends_the_lab_and_says_what_has_ended() -> None:
+    reader, writer = pty.openpty()
+    port = ephemeral_port()
+    command = [COURSE, "lab", "--no-browser", f"--port={port}"]
+    lab = subprocess.Popen(command, stdin=writer, stdout=writer, stderr=writer, start_new_session=True)
+    os.close(writer)
+    try:
+        printed = read_until(reader, "?token=")
+        lab.send_signal(signal.SIGINT)
+        printed += read_until(reader, "as last saved")
+        assert lab.wait(TIMEOUT) == 0
+        assert "(y/[n])" not in printed
+    finally:
+        lab.kill()
+        lab.wait()
+        os.close(reader)
+
+
+def ephemeral_port() -> int:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        return int(free.getsockname()[1])
+
+
+def read_until(terminal: int, words: str) -> str:
+    """What a program prints on a terminal until these words; fail if they do not come."""
+    printed = ""
+    deadline = time.monotonic() + TIMEOUT
+    while words not in printed:
+        assert select.select([terminal], [], [], max(0.0, deadline - time.monotonic()))[0], printed
+        printed += os.read(terminal, 4096).decode(errors="replace")
+    return printed

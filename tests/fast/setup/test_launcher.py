@@ -177,6 +177,38 @@ def test_without_a_usable_home_the_clone_is_used_as_home(clone: Path, home: str)
     assert (clone / "build/home").is_dir()
 
 
+def test_a_command_that_is_not_here_installs_nothing(clone: Path) -> None:
+    (clone / ".venv/bin/course").write_text("#!/bin/sh\necho it says so\n")
+    (clone / "setup/install_g1.sh").write_text("echo installed\n")
+    (clone / ".venv/course.stamp").write_text(f"{dry_run(clone)[1]}\n{clone}\nwheels\n")
+    assert run_test_command(clone) == (0, "it says so\n", "")
+
+    (clone / ".venv/course.stamp").unlink()
+    assert run_test_command(clone) == (
+        2,
+        "",
+        "course: there is no command 'test'. ./course --help lists the commands.\n",
+    )
+    assert not (clone / "build").exists()
+
+
+def test_the_robot_that_only_tests_need_is_installed_for_them(clone: Path) -> None:
+    (clone / "tests/developer").mkdir(parents=True)
+    (clone / "tests/developer/test.py").touch()
+    (clone / ".venv/bin/course").write_text("#!/bin/sh\necho it runs\n")
+    (clone / "setup/install_g1.sh").write_text("echo installed\n")
+    (clone / ".venv/course.stamp").write_text(f"{dry_run(clone)[1]}\n{clone}\nwheels\n")
+    status, printed, _ = run_test_command(clone)
+    assert (status, printed) == (0, "installed\nit runs\n")
+
+
+def run_test_command(clone: Path) -> tuple[int, str, str]:
+    """Exit status, output and error output of `./course test` in a copy without ROS from apt."""
+    inherited = {name: value for name, value in os.environ.items() if not name.startswith(("ROS_", "AMENT_"))}
+    ran = subprocess.run([clone / "course", "test"], env=inherited, capture_output=True, text=True)
+    return ran.returncode, ran.stdout, ran.stderr
+
+
 def launch_with_rclpy(clone: Path, prefix: Path, version: str) -> subprocess.CompletedProcess[str]:
     """Run a command of the course where ROS 2 Jazzy is sourced and has this rclpy; the environment is up to date."""
     (prefix / "lib/python3.12/site-packages/rclpy").mkdir(parents=True)

@@ -1,0 +1,13 @@
+"""Tells a person's terminal from files, pipes and the cells of a notebook."""
+
+from __future__ import annotations
+
+import os
+from typing import IO
+
+CELL_VARIABLE = "JPY_PARENT_PID"  # Jupyter sets it for kernels, and so for the commands in their cells
+
+
+def is_terminal(stream: IO[str]) -> bool:
+    """Return whether a stream is a terminal, whose lines the course breaks; the page of a notebook breaks its own."""
+    return stream.isatty() and CELL_VARIABLE not in os.environ
