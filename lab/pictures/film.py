@@ -52,7 +52,9 @@ def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: 
             set_current_posture(body)
             yield
 
-    with notice(f"The robot is being filmed for {seconds:g} s. Before and after that the film takes a few seconds."):
+    with notice(
+        f"The robot is being filmed for {seconds:g} s. Before and after that the film takes a few seconds."
+    ):
         return _film(postures, words, lambda: f"{words}, to {topics.pose()}", camera, file)
 
 
