@@ -108,7 +108,7 @@ def _nodes_read_by(condition: Callable[[], Any]) -> list[StudentNode]:
     """Return the student's nodes that a condition reads; none if it reads or calls anything else that can change."""
     try:
         names = inspect.getclosurevars(condition)
-    except TypeError:  # it is no function of Python
+    except (TypeError, ValueError):  # no function of Python, or a variable without a value
         return []
     read = [*names.nonlocals.values(), *names.globals.values()]
     nodes = [each for each in read if isinstance(each, StudentNode)]
