@@ -24,7 +24,7 @@ from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
 from autograder.engine.hand_in import given_in
-from lab.client.connection import NAMESPACE, connection
+from lab.client.connection import NAMESPACE, ROBOT_NODE, connection
 from lab.client.graph import Endpoint, Topic, topics_in_graph
 from lab.client.interaction_log import log
 from lab.tracebacks import OF_OTHERS
@@ -37,7 +37,6 @@ _SEEN_BY_THE_CLIENT = (
     *(ev.ServiceCalled, ev.ServiceAnswered, ev.Unanswered),
     *(ev.GoalSent, ev.GoalAnswered, ev.FeedbackReceived, ev.StatusSeen, ev.ResultReceived),
 )
-_ROBOT = f"{NAMESPACE}/humanoid"
 _SAMPLES = 3  # of the stacks; a callback that is in all of them does not return
 _FRAME = re.compile(r'^  File "([^"]+)", line \d+.*\n(?:    .*\n)*', re.MULTILINE)
 _FOLDER = re.compile(r'(?<=File ")[^"]*/(?=\w+\.py")')
@@ -195,7 +194,7 @@ def _missing_connections(node: StudentNode) -> Iterator[str]:
     topics = [topic for topic in topics_in_graph() if "/_action/" not in topic.name]
     publishers = [(topic.name, topic.publishers) for topic in topics]
     subscriptions = [(topic.name, topic.subscriptions) for topic in topics]
-    own, robot = set(node.names), {_ROBOT}
+    own, robot = set(node.names), {ROBOT_NODE}
     published, subscribed = _types(publishers, own), _types(subscriptions, own)
     from_robot, to_robot = _types(publishers, robot), _types(subscriptions, robot)
     seen = ev.NodeTopics(t=0.0, publishes=[*published], subscribes=[*subscribed])

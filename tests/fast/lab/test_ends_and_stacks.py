@@ -10,6 +10,7 @@ from types import SimpleNamespace
 import pytest
 
 from autograder.engine.hand_in import given_in
+from lab import notices
 from lab.client import topics
 from lab.client.exchange import no_answer, wait_until
 from lab.client.waiting import becomes_true
@@ -233,3 +234,18 @@ def test_a_wait_that_reads_more_than_an_ended_node_goes_on(start: Callable[..., 
     assert becomes_true(lambda: not node.is_running, 10.0)
     until = time.monotonic() + 2.0
     wait_until(lambda: not node.is_running and time.monotonic() > until, 30.0)
+
+
+@pytest.mark.usefixtures("alone")
+def test_a_wait_says_what_it_waits_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    shown: list[str] = []
+
+    def display(content: dict[str, str], **_: object) -> SimpleNamespace:
+        shown.append(content["text/plain"])
+        return SimpleNamespace(update=lambda *_, **__: None)
+
+    monkeypatch.setattr(notices, "get_ipython", lambda: SimpleNamespace(kernel=True))
+    monkeypatch.setattr(notices, "display", display)
+    monkeypatch.setattr(notices, "DELAY", 0.01)
+    wait_until(lambda: shown, 10.0, "ten steps")
+    assert shown == ["This waits up to 10 s for: ten steps."]
