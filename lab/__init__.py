@@ -15,7 +15,7 @@ from contextlib import ExitStack
 
 os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
 
-from lab import notices
+from lab import notices, tracebacks
 
 _loading = ExitStack()
 _loading.enter_context(

@@ -23,10 +23,12 @@ _only_one = threading.Lock()  # of a step and its parts, the step says what goes
 def notice(text: str) -> Iterator[None]:
     """Show a text below the cell if the `with` block takes longer than DELAY, and remove it at the end.
 
-    The text is not printed: nothing that reads the cell's output meets it. Outside a notebook nothing is shown.
+    The text is not printed: nothing that reads the cell's output meets it. Outside a notebook, and in threads that the
+    cell has started, nothing is shown.
     """
     shell: Any = get_ipython()
-    if not hasattr(shell, "kernel") or not _only_one.acquire(blocking=False):
+    is_cell = hasattr(shell, "kernel") and threading.current_thread() is threading.main_thread()
+    if not is_cell or not _only_one.acquire(blocking=False):
         yield
         return
     shown: list[Any] = []

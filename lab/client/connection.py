@@ -25,6 +25,8 @@ from ros_runtime.recorded_client.service_client import ServiceClient
 from ros_runtime.ros_domain import NoDomainLeft, ReservedDomain, loopback_variables
 
 NAMESPACE = "/robot"
+ROBOT_NODE = f"{NAMESPACE}/humanoid"
+NOT_YET_KNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet
 STANDARD_SERVICES = (
     "describe_parameters",
     "get_parameter_types",

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from typing import Any
 
 from lab.client.connection import connection
-from lab.client.exchange import give_up, no_answer, require_server
+from lab.client.exchange import TIME_TO_END, give_up, no_answer, require_server
 from lab.client.formatting import describe
 from lab.client.interaction_log import conversation, log
 from lab.client.outcomes import CancelAnswer, Outcome, read_cancel_answer
 from lab.errors import LabError
-from lab.running.node_diagnosis import why_aborted, why_unfinished
+from lab.notices import notice
+from lab.running.node_diagnosis import all_have_failed, why_aborted, why_unfinished
 from lab.running.student_nodes import started_nodes
 from ros_runtime.message_constants import GoalStatus, name_of
-from ros_runtime.record.client_events import Unanswered
+from ros_runtime.record.client_events import ResultReceived, Unanswered
 from ros_runtime.recorded_client.action_client import ActionClient
 from ros_runtime.recorded_client.goal import Goal as SentGoal
 
@@ -83,32 +85,39 @@ class Goal:
         """Wait until the goal has ended and return its status and result; print feedback at most once a second.
 
         Raises:
-            NoAnswerError: the goal has not ended in time; it stays active, and you may call this again.
+            NoAnswerError: the goal has not ended in time; it stays active, and you may call this again. Or the server
+                has ended.
         """
         if not self.accepted:
             raise LabError(f"{self._action} rejected this goal, so it has no result")
-        deadline = time.monotonic() + timeout
-        while not self._sent.result:
-            left = deadline - time.monotonic()
-            if left <= 0:
-                log.append(Unanswered(what="result", id=self._sent.name, waited=timeout))
-                raise no_answer(
-                    self._action,
-                    f"no result from {self._action} within {timeout:g} s; the goal's status is {self.status}. "
-                    "Call result() again to wait longer, or cancel().",
-                    lambda server: why_unfinished(server, self._sent.name),
-                )
-            count = len(self.feedback)
-            log.wait_until(lambda: self.is_over, min(1.0, left))
-            if show_feedback and len(self.feedback) > count:
-                since = time.monotonic() - self._sent.sent_at
-                print(f"{since:5.1f} s  feedback: {describe(self.feedback[-1])}")
-        outcome = Outcome(name_of(GoalStatus, self._sent.result.status), self._sent.result.result)
+        with notice(f"This waits up to {timeout:g} s for the result of {self._action}."):
+            received = self._await_result(timeout, show_feedback)
+        outcome = Outcome(name_of(GoalStatus, received.status), received.result)
         if outcome.status == "ABORTED" and (
             why := why_aborted(started_nodes(), self._action, self._sent.name)
         ):
             print(why)
         return outcome
+
+    def _await_result(self, timeout: float, show_feedback: bool) -> ResultReceived:
+        began = time.monotonic()
+        while not self._sent.result:
+            waited = time.monotonic() - began
+            if waited >= timeout or (waited > TIME_TO_END and all_have_failed(started_nodes())):
+                waited = min(timeout, math.ceil(waited))
+                log.append(Unanswered(what="result", id=self._sent.name, waited=waited))
+                raise no_answer(
+                    self._action,
+                    f"no result from {self._action} within {waited:g} s; the goal's status is {self.status}. "
+                    "Call result() again to wait longer, or cancel().",
+                    lambda server: why_unfinished(server, self._sent.name),
+                )
+            count = len(self.feedback)
+            log.wait_until(lambda: self.is_over, min(1.0, timeout - waited))
+            if show_feedback and len(self.feedback) > count:
+                since = time.monotonic() - self._sent.sent_at
+                print(f"{since:5.1f} s  feedback: {describe(self.feedback[-1])}")
+        return self._sent.result
 
     def cancel(self, timeout: float = 5.0) -> CancelAnswer:
         """Send a cancel request for this goal and return the response. An accepted cancel does not end the goal yet.

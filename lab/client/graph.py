@@ -11,9 +11,8 @@ from dataclasses import dataclass
 from rclpy.qos import DurabilityPolicy, QoSCompatibility, QoSProfile, ReliabilityPolicy, qos_check_compatible
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from lab.client.connection import connection
+from lab.client.connection import NOT_YET_KNOWN, connection
 from lab.errors import LabError
-from lab.running.student_nodes import NOT_YET_KNOWN
 
 STANDARD_TOPICS = ("/parameter_events", "/rosout")
 HIDDEN = "_"  # prefix of hidden nodes, such as those of ros2 commands
@@ -21,9 +20,10 @@ HIDDEN = "_"  # prefix of hidden nodes, such as those of ros2 commands
 
 @dataclass(frozen=True)
 class Endpoint:
-    """A publisher or subscription of a topic: its node's full name, and the QoS that it offers or requests."""
+    """A publisher or subscription of a topic: its node's full name, its type, and the offered or requested QoS."""
 
     node: str
+    type: str
     qos: QoSProfile
 
     def qos_in_words(self) -> str:
@@ -105,7 +105,7 @@ def nodes_in_graph() -> list[str]:
 
 def _endpoints(infos: Iterable[TopicEndpointInfo]) -> tuple[Endpoint, ...]:
     ends = (
-        Endpoint(_full_name(info.node_namespace, info.node_name), info.qos_profile)
+        Endpoint(_full_name(info.node_namespace, info.node_name), info.topic_type, info.qos_profile)
         for info in infos
         if not info.node_name.startswith(HIDDEN)
     )

@@ -22,6 +22,7 @@ from lab.client.interaction_log import log
 from lab.client.messages import ModeChanged
 from lab.client.waiting import becomes_true
 from lab.errors import NoRobotError
+from lab.notices import notice
 from robot_sim.model.scenes import OBJECTS
 from ros_runtime.angles import yaw_of
 from ros_runtime.message_constants import RobotMode, name_of
@@ -90,15 +91,24 @@ def fell_at() -> float | None:
 def latest(topic: str, timeout: float = 5.0) -> Any:
     """Return the last message on one of the robot's topics; if it is older than a second, wait for a new one.
 
-    Raises NoRobotError when no message arrives within `timeout` s.
+    Raises NoRobotError when no message arrives within `timeout` s; at once if another notebook has taken the robot.
     """
     stored = _last_messages()
-    if not becomes_true(lambda: stored.age(topic) <= MAX_AGE, timeout):
-        if other := robot_of_another_notebook():
-            raise NoRobotError(
-                f"the robot of this notebook ended when {other.notebook} started one: you have one robot at a time. "
-                "lab.start_robot() brings it back"
-            )
+
+    def is_current() -> bool:
+        return stored.age(topic) <= MAX_AGE
+
+    if is_current():
+        return stored.messages[topic][0]
+    if other := robot_of_another_notebook():
+        raise NoRobotError(
+            f"the robot of this notebook ended when {other.notebook} started one: you have one robot at a time. "
+            "lab.start_robot() brings it back"
+        )
+    waits = f"No message arrives on {NAMESPACE}/{topic}: this waits up to {timeout:g} s for a robot that publishes it."
+    with notice(waits):
+        arrives = becomes_true(is_current, timeout)
+    if not arrives:
         raise NoRobotError(
             f"no message arrived on {NAMESPACE}/{topic} for {timeout:g} s; does the robot run? Try lab.start_robot()"
         )

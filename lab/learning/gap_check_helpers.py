@@ -14,7 +14,7 @@ from lab.client.exchange import TIME_TO_END
 from lab.client.services import call
 from lab.errors import NoAnswerError
 from lab.learning.gap import not_yet
-from lab.running.node_diagnosis import why_silent
+from lab.running.node_diagnosis import where_blocked, why_silent
 from lab.running.student_nodes import StudentNode
 
 NO_HINTS: Mapping[str, str] = {}
@@ -43,6 +43,12 @@ def call_student_service(
     advice = advice_on(server.log(), reason, hints) if ended else why_silent(server)
     seen = f"no response within 2 s; the node {f'has ended: {reason}' if ended else 'still runs'}"
     raise not_yet(seen, "a response", advice)
+
+
+def blocked_or(node: StudentNode, advice: str, meanwhile: str) -> str:
+    """Return in which line a callback of a node does not return, and what that prevents; else the `advice`."""
+    blocked = where_blocked(node) if node.is_running else ""
+    return f"{blocked} {meanwhile}" if blocked else advice
 
 
 def advice_on(log: str, reason: str, hints: Mapping[str, str] = NO_HINTS) -> str:

@@ -19,6 +19,7 @@ from PIL import Image
 from sensor_msgs.msg import JointState
 
 from lab.client import topics
+from lab.notices import notice
 from lab.pictures.labels import Mark
 from lab.pictures.picture import HEIGHT, WIDTH, as_mujoco, body_to_draw, figure, set_current_posture
 from robot_sim.humanoid import Humanoid
@@ -28,6 +29,7 @@ from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 RATE = 12.5  # frames a second
 MAX_DURATION = 60.0  # s; such a film takes about 5 MB in the notebook
+DRAWING = "The film is being drawn, which takes about 10 s, on a busy machine longer."
 
 
 def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: str = "track") -> HTML:
@@ -50,7 +52,10 @@ def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: 
             set_current_posture(body)
             yield
 
-    return _film(postures, words, lambda: f"{words}, to {topics.pose()}", camera, file)
+    with notice(
+        f"The robot is being filmed for {seconds:g} s. Before and after that the film takes a few seconds."
+    ):
+        return _film(postures, words, lambda: f"{words}, to {topics.pose()}", camera, file)
 
 
 def film_of_messages(
@@ -116,6 +121,7 @@ def _frames(seconds: float) -> int:
     return max(1, round(seconds * RATE))
 
 
+@notice(DRAWING)
 def _film(
     postures: Callable[[Humanoid], Iterator[None]],
     words: str,

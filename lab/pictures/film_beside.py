@@ -13,8 +13,9 @@ from IPython.display import HTML
 from PIL import Image, ImageDraw
 
 from lab.errors import LabError
+from lab.notices import notice
 from lab.pictures.figure import BLUE, GREY, VERMILION
-from lab.pictures.film import MAX_DURATION, RATE, set_postures
+from lab.pictures.film import DRAWING, MAX_DURATION, RATE, set_postures
 from lab.pictures.lettering import font
 from lab.pictures.picture import body_to_draw, figure
 from lab.pictures.recorded_goal import RecordedGoal
@@ -31,6 +32,7 @@ GRAVITY = 9.81  # m/s²
 STATUS_COLOURS = {"SUCCEEDED": "#007A5E", "ABORTED": VERMILION, "CANCELED": VERMILION}
 
 
+@notice(DRAWING)
 def film_beside(recordings: Mapping[str, Recording], *, camera: str = "side") -> HTML:
     """Film recorded walks to a goal beside each other, each from the moment when its goal was sent.
 

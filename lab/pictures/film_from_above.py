@@ -13,8 +13,9 @@ from IPython.display import HTML
 from PIL import Image, ImageDraw
 
 from lab.errors import LabError
+from lab.notices import notice
 from lab.pictures.figure import BLUE, GREY, VERMILION
-from lab.pictures.film import MAX_DURATION, RATE
+from lab.pictures.film import DRAWING, MAX_DURATION, RATE
 from lab.pictures.labels import Mark
 from lab.pictures.lettering import font
 from lab.pictures.picture import figure
@@ -34,6 +35,7 @@ COLOURS = (BLUE, VERMILION, "#007A5E", "#8A4F7D", GREY)
 BODY = ((0.14, 0.0), (0.04, 0.16), (-0.08, 0.16), (-0.08, -0.16), (0.04, -0.16))  # m, from its front
 
 
+@notice(DRAWING)
 def film_from_above(recording: Recording, *, reach: float = 0.0, title: str = "The trip from above") -> HTML:
     """Film the walk to the last goal of a recording from above.
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import ast
+import math
 import re
-import sys
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from autograder.authoring.diagnosis.blocked_callback import remedy_for_no_answer
+from autograder.authoring.diagnosis.connections import why_no_command_arrives, why_no_message_arrives
 from autograder.authoring.diagnosis.exit_diagnosis import (
     remedy_for_a_traceback,
     remedy_for_the_end,
@@ -21,9 +23,11 @@ from autograder.authoring.diagnosis.stack_location import where_it_waited
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
-from lab.client.connection import NAMESPACE, connection
+from autograder.engine.hand_in import given_in
+from lab.client.connection import NAMESPACE, ROBOT_NODE, connection
+from lab.client.graph import Endpoint, Topic, topics_in_graph
 from lab.client.interaction_log import log
-from ros_runtime.project import PROJECT
+from lab.tracebacks import OF_OTHERS
 from ros_runtime.record.event import Event
 
 if TYPE_CHECKING:
@@ -33,17 +37,13 @@ _SEEN_BY_THE_CLIENT = (
     *(ev.ServiceCalled, ev.ServiceAnswered, ev.Unanswered),
     *(ev.GoalSent, ev.GoalAnswered, ev.FeedbackReceived, ev.StatusSeen, ev.ResultReceived),
 )
-_OF_OTHERS = (
-    sys.prefix,
-    sys.base_prefix,
-    str(PROJECT / "ros_runtime"),
-    "<frozen",
-)  # folders of code in tracebacks
+_SAMPLES = 3  # of the stacks; a callback that is in all of them does not return
 _FRAME = re.compile(r'^  File "([^"]+)", line \d+.*\n(?:    .*\n)*', re.MULTILINE)
 _FOLDER = re.compile(r'(?<=File ")[^"]*/(?=\w+\.py")')
 _PLACE = re.compile(r"line (\d+) of (\w+\.py)")
 _ERROR = re.compile(r"^[\w.]*(?:Error|Exception)\b.*", re.MULTILINE)
-_EMPTY_PLACE = re.compile(
+_PLACES = re.compile(r"^ *# YOUR CODE HERE", re.MULTILINE)
+_EMPTY_PLACES = re.compile(
     r"^(?P<indent> *)# YOUR CODE HERE.*\n(?: *(?:#.*)?\n)*(?! *(?:#|\n))(?:(?P=indent)return \w+$|(?!(?P=indent)))",
     re.MULTILINE,
 )
@@ -60,11 +60,46 @@ def what_is_to_be_written(nodes: Iterable[StudentNode]) -> str:
     """Return where nothing is written yet below `# YOUR CODE HERE` in running nodes, each in a line; "" if nowhere."""
     places = ((node.file.name, _empty_places(node.file)) for node in nodes if node.is_running)
     return "".join(
-        f"\n{name} is as the starter leaves it below `# YOUR CODE HERE` in line {' and '.join(lines)}: "
+        f"\n{name} is as the starter leaves it below `# YOUR CODE HERE` in {_in_words(lines)}: "
         "write your code there."
         for name, lines in places
         if lines
     )
+
+
+def has_no_answer_yet(nodes: Iterable[StudentNode], service: str) -> bool:
+    """Whether the node that offers a service has a callback for it in which nothing is written yet."""
+    server = server_of(nodes, service)
+    callback = _callback_of(service, server.file)[0] if server else None
+    if server is None or callback is None or not all(isinstance(each, ast.Return) for each in callback.body):
+        return False
+    return any(callback.lineno <= line <= (callback.end_lineno or 0) for line in _empty_places(server.file))
+
+
+def all_have_failed(nodes: Iterable[StudentNode]) -> bool:
+    """Whether none of the nodes runs any more, except those that were stopped, and one has ended with an error."""
+    kept = [node for node in nodes if not node.was_stopped]
+    return any(map(_has_failed, kept)) and not any(node.is_running for node in kept)
+
+
+def why_not_connected(nodes: Iterable[StudentNode]) -> str:
+    """Return why running nodes and the robot do not receive each other's messages, each cause in a line; "" if none.
+
+    A node needs those of the robot's topics whose type its file imports, or whose name it uses in another namespace.
+    """
+    found = [(node.file.name, why) for node in nodes if node.is_running for why in _missing_connections(node)]
+    return "".join(f"\n{name}: {why}" for name, why in found)
+
+
+def where_blocked(node: StudentNode) -> str:
+    """Return in which line a callback of a running node does not return, and what follows; "" if none is blocked."""
+    remedy = ""
+    for _ in range(_SAMPLES):
+        run = _record(node, _stack(node))
+        if not where_it_waited(run):
+            return ""
+        remedy = remedy_for_no_answer(run).help
+    return _with_code(remedy, node)
 
 
 def how_it_ended(node: StudentNode) -> str:
@@ -78,7 +113,7 @@ def how_it_ended(node: StudentNode) -> str:
 
 def own_output(node: StudentNode) -> str:
     """Return what a node printed, without its folder and without the lines of tracebacks that are in libraries."""
-    own = _FRAME.sub(lambda frame: "" if frame[1].startswith(_OF_OTHERS) else frame[0], node.log())
+    own = _FRAME.sub(lambda frame: "" if frame[1].startswith(OF_OTHERS) else frame[0], node.log())
     return own.replace(f"{node.file.parent}/", "")
 
 
@@ -134,10 +169,82 @@ def _has_failed(node: StudentNode) -> bool:
     return bool(node.exit_status) and not node.was_stopped
 
 
-def _empty_places(file: Path) -> list[str]:
-    """Return the numbers of the lines `# YOUR CODE HERE` that no line of the student follows."""
+def _empty_places(file: Path) -> list[int]:
+    """Return the lines `# YOUR CODE HERE` that no line of the student follows; of the untouched starter all of them."""
     program = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
-    return [str(program.count("\n", 0, place.start()) + 1) for place in _EMPTY_PLACE.finditer(program)]
+    pattern = _PLACES if _is_the_starter(file, program) else _EMPTY_PLACES
+    return [program.count("\n", 0, place.start()) + 1 for place in pattern.finditer(program)]
+
+
+def _is_the_starter(file: Path, program: str) -> bool:
+    """Whether the notebook beside a file would write this program with a cell that the student has not changed."""
+    notebook = file.with_suffix(".ipynb")
+    if not notebook.is_file() or not _PLACES.search(program):
+        return False
+    return given_in(notebook.read_bytes()).get(file.name, "").strip() == program.strip()
+
+
+def _in_words(lines: list[int]) -> str:
+    *others, last = map(str, lines)
+    return f"lines {', '.join(others)} and {last}" if others else f"line {last}"
+
+
+def _missing_connections(node: StudentNode) -> Iterator[str]:
+    """Yield what keeps a node and the robot from receiving each other's messages."""
+    topics = [topic for topic in topics_in_graph() if "/_action/" not in topic.name]
+    publishers = [(topic.name, topic.publishers) for topic in topics]
+    subscriptions = [(topic.name, topic.subscriptions) for topic in topics]
+    own, robot = set(node.names), {ROBOT_NODE}
+    published, subscribed = _types(publishers, own), _types(subscriptions, own)
+    from_robot, to_robot = _types(publishers, robot), _types(subscriptions, robot)
+    seen = ev.NodeTopics(t=0.0, publishes=[*published], subscribes=[*subscribed])
+    peers = ev.RobotPeers(
+        t=0.0,
+        subscribers={
+            topic.name: _count_matches(topic, robot, own) for topic in topics if topic.name in from_robot
+        },
+        publishers={
+            topic.name: _count_matches(topic, own, robot) for topic in topics if topic.name in to_robot
+        },
+    )
+    run = Transcript.from_events("", {}, [seen, peers])
+    imported = _imported_messages(node.file)
+    for topic in _needed(from_robot, subscribed, imported):
+        if why := why_no_message_arrives(run, topic):
+            yield why
+    for topic in _needed(to_robot, published, imported):
+        if why := why_no_command_arrives(run, topic, before=math.inf):
+            yield f"On {topic} the robot sees {why}."
+
+
+def _needed(of_robot: Mapping[str, str], of_node: Iterable[str], imported: set[str]) -> list[str]:
+    """Return the robot's topics, without the namespace, that a node needs by its imports or by the names it uses.
+
+    `of_robot` has the types of the topics at the robot, by full name.
+    """
+    names = {name.rpartition("/")[2] for name in of_node}
+    by_type = Counter(of_robot.values())
+    relative = {name.removeprefix(f"{NAMESPACE}/"): type for name, type in of_robot.items()}
+    return [
+        name
+        for name, type in relative.items()
+        if "/" not in name and (name in names or (type in imported and by_type[type] == 1))
+    ]
+
+
+def _types(ends: Iterable[tuple[str, Iterable[Endpoint]]], nodes: set[str]) -> dict[str, str]:
+    """Return the types of those topics, by full name, that have an end at one of these nodes."""
+    return {name: end.type for name, each in ends for end in each if end.node in nodes}
+
+
+def _count_matches(topic: Topic, senders: set[str], receivers: set[str]) -> int:
+    """Return how many subscriptions of some nodes receive what other nodes publish on a topic."""
+    publishers = [end for end in topic.publishers if end.node in senders]
+    return sum(
+        any(end.type == other.type and other not in topic.incompatible_with(end) for other in publishers)
+        for end in topic.subscriptions
+        if end.node in receivers
+    )
 
 
 def _offered_by(node: StudentNode) -> dict[str, str]:
@@ -171,15 +278,22 @@ def _stack(node: StudentNode) -> ev.NodeStack:
 
 def _as_in_the_sandbox(line: str) -> str:
     """Return a line of a traceback with a file of the student in the folder /work, where the diagnosis expects it."""
-    return line if any(f'"{folder}' in line for folder in _OF_OTHERS) else _FOLDER.sub("/work/", line)
+    return line if any(f'"{folder}' in line for folder in OF_OTHERS) else _FOLDER.sub("/work/", line)
 
 
-def _on_the_callback(service: str, file: Path) -> str:
-    """Return which function of a file is the callback of a service, and whether it returns a value; "" if unknown."""
-    try:
-        tree = ast.parse(file.read_bytes())
-    except (OSError, SyntaxError):  # it was changed since the program was started
-        return ""
+def _imported_messages(file: Path) -> set[str]:
+    """Return the message types that a file imports, such as "sensor_msgs/msg/BatteryState"."""
+    return {
+        f"{each.module.removesuffix('.msg')}/msg/{name.name}"
+        for each in ast.walk(_syntax_tree(file))
+        if isinstance(each, ast.ImportFrom) and each.module and each.module.endswith(".msg")
+        for name in each.names
+    }
+
+
+def _callback_of(service: str, file: Path) -> tuple[ast.FunctionDef | ast.AsyncFunctionDef | None, bool]:
+    """Return the function in a file that is the callback of a service, and whether it returns a value."""
+    tree = _syntax_tree(file)
     functions = {
         each.name: each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef)
     }
@@ -188,9 +302,25 @@ def _on_the_callback(service: str, file: Path) -> str:
             names = [ast.unparse(argument).rpartition(".")[2] for argument in call.args]
             if repr(service) in names and (callback := functions.get(names[-1])):
                 returns = any(isinstance(each, ast.Return) and each.value for each in ast.walk(callback))
-                so = "" if returns else ", which returns no value, that is None"
-                return f" The callback is {callback.name}() in line {callback.lineno} of {file.name}{so}."
-    return ""
+                return callback, returns
+    return None, False
+
+
+def _on_the_callback(service: str, file: Path) -> str:
+    """Return which function of a file is the callback of a service, and whether it returns a value; "" if unknown."""
+    callback, returns = _callback_of(service, file)
+    if callback is None:
+        return ""
+    so = "" if returns else ", which returns no value, that is None"
+    return f" The callback is {callback.name}() in line {callback.lineno} of {file.name}{so}."
+
+
+def _syntax_tree(file: Path) -> ast.Module:
+    """Return the syntax tree of a file; an empty one if it was changed since its program was started, and is broken."""
+    try:
+        return ast.parse(file.read_bytes())
+    except (OSError, SyntaxError):
+        return ast.Module(body=[], type_ignores=[])
 
 
 def _with_code(advice: str, node: StudentNode) -> str:

@@ -9,7 +9,7 @@ from contextlib import suppress
 import psutil
 
 from lab.client import topics
-from lab.client.connection import NAMESPACE, connection
+from lab.client.connection import NAMESPACE, ROBOT_NODE, connection
 from lab.client.topics import START_TIMEOUT
 from lab.client.waiting import becomes_true
 from lab.errors import NoRobotError
@@ -19,8 +19,6 @@ from lab.running.processes import GRACE, Process
 from robot_sim.body import MissingParts, body_named
 from robot_sim.model.scenes import OBJECTS
 from ros_runtime.notebook_domains import announce_robot, expect_node, forget_node, robot_of_another_notebook
-
-NODE_NAME = f"{NAMESPACE}/humanoid"
 
 _robot: Process | None = None
 
@@ -64,8 +62,8 @@ def start_robot(scene: str = "flat", *, robot: str = "humanoid") -> None:
         raise NoRobotError(
             f"the robot's process ended with exit status {process.exit_status}; it printed:\n{process.output()}"
         )
-    forget_node(NODE_NAME)  # an entry of a robot that was already running, or that crashed
-    expect_node(NODE_NAME)
+    forget_node(ROBOT_NODE)  # an entry of a robot that was already running, or that crashed
+    expect_node(ROBOT_NODE)
     lies = " It lies: lab.restart_robot() sets it up again." if topics.fell_at() else ""
     print(
         f"The robot {'runs' if lies else 'is up'} in namespace {NAMESPACE}, ROS_DOMAIN_ID {domain_id}.{lies}{ended}"
@@ -116,7 +114,7 @@ def restart_robot(scene: str = "flat", *, robot: str = "humanoid") -> None:
 def stop_robot() -> None:
     """Stop the robot's process."""
     global _robot
-    forget_node(NODE_NAME)
+    forget_node(ROBOT_NODE)
     if _robot is not None:
         _robot.stop()
         _robot = None

@@ -6,7 +6,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from lab.client.connection import NAMESPACE, connection
+from lab.client.connection import NAMESPACE, NOT_YET_KNOWN, connection
 from lab.client.interaction_log import log
 from lab.client.waiting import becomes_true
 from lab.errors import LabError, NodeEndedError
@@ -17,7 +17,6 @@ from ros_runtime.notebook_domains import expect_node, forget_node
 from ros_runtime.reachability import wait_until_reachable
 
 START_TIMEOUT = 10.0  # s
-NOT_YET_KNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet
 
 _nodes: dict[Path, StudentNode] = {}
 

@@ -2,19 +2,33 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
-from lab.client.exchange import no_answer
+from autograder.engine.hand_in import given_in
+from lab import notices
+from lab.client import topics
+from lab.client.exchange import no_answer, wait_until
 from lab.client.waiting import becomes_true
+from lab.errors import NotInTimeError
 from lab.running import node_diagnosis
-from lab.running.node_diagnosis import how_it_ended, own_output, server_of, what_is_to_be_written, why_silent
+from lab.running.node_diagnosis import (
+    has_no_answer_yet,
+    how_it_ended,
+    own_output,
+    server_of,
+    what_is_to_be_written,
+    where_blocked,
+    why_silent,
+)
 from lab.running.processes import Process
 from lab.running.programs import Program
 from lab.running.student_nodes import StudentNode
+from ros_runtime.project import COURSE
 
 BLOCKED = """
 import threading, time
@@ -60,6 +74,7 @@ def test_the_line_in_which_a_callback_waits_is_quoted_and_the_program_goes_on(
         assert why_silent(node).startswith(
             "It was blocked in line 5 of status.py (`time.sleep(60)`), in on_request()."
         )
+    assert where_blocked(node) == why_silent(node)
     assert node.is_running
     assert node.log() == "up\n"
 
@@ -161,7 +176,76 @@ def test_places_below_which_nothing_is_written_are_named(start: Callable[..., St
     node = start(f"{STARTER}print('up', flush=True)\ntime.sleep(60)\n")
     assert becomes_true(lambda: "up" in node.log(), 10.0)
     assert what_is_to_be_written([node]) == (
-        "\nstatus.py is as the starter leaves it below `# YOUR CODE HERE` in line 3 and 13: write your code there."
+        "\nstatus.py is as the starter leaves it below `# YOUR CODE HERE` in lines 3 and 13: write your code there."
     )
     node.kill()
     assert what_is_to_be_written([node]) == ""
+
+
+def test_a_node_whose_callbacks_return_is_not_blocked(start: Callable[..., StudentNode]) -> None:
+    node = start(
+        "import threading\ndef main():\n    print('up', flush=True)\n    threading.Event().wait()\nmain()\n"
+    )
+    assert becomes_true(lambda: "up" in node.log(), 10.0)
+    assert where_blocked(node) == ""
+
+
+@pytest.fixture
+def released(tmp_path: Path) -> SimpleNamespace:
+    """A node that runs the untouched starter of `battery_service`, beside its notebook."""
+    notebook = (COURSE / "exercises/battery_service/battery_service.ipynb").read_bytes()
+    (tmp_path / "battery_service.ipynb").write_bytes(notebook)
+    file = tmp_path / "battery_service.py"
+    file.write_text(given_in(notebook)[file.name], encoding="utf-8")
+    return SimpleNamespace(file=file, is_running=True, names=[], exit_status=None, was_stopped=False)
+
+
+@pytest.mark.usefixtures("graph")
+def test_all_places_of_an_untouched_starter_are_named(released: SimpleNamespace) -> None:
+    assert "in lines 19 and 26: " in what_is_to_be_written([released])
+    assert has_no_answer_yet([released], "get_battery_status")
+    program = released.file.read_text(encoding="utf-8")
+    head, _, tail = program.rpartition("# YOUR CODE HERE")
+    released.file.write_text(f"{head}response.available = True{tail}", encoding="utf-8")
+    assert what_is_to_be_written([released]) == ""
+    assert not has_no_answer_yet([released], "get_battery_status")
+
+
+@pytest.fixture
+def alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A notebook without a robot."""
+    monkeypatch.setattr(topics, "fell_at", lambda: None)
+    monkeypatch.setattr("lab.client.exchange.started_nodes", list)
+
+
+@pytest.mark.usefixtures("alone")
+def test_a_wait_for_words_of_a_node_that_has_ended_is_over_at_once(start: Callable[..., StudentNode]) -> None:
+    node = start("print('up')")
+    began = time.monotonic()
+    wait_until(lambda: "up" in node.log(), 30.0)
+    with pytest.raises(NotInTimeError, match="the second line: never, as things are"):
+        wait_until(lambda: "second" in node.log(), 30.0, "the second line")
+    assert time.monotonic() - began < 15.0
+
+
+@pytest.mark.usefixtures("alone")
+def test_a_wait_that_reads_more_than_an_ended_node_goes_on(start: Callable[..., StudentNode]) -> None:
+    node = start("print('up')")
+    assert becomes_true(lambda: not node.is_running, 10.0)
+    until = time.monotonic() + 2.0
+    wait_until(lambda: not node.is_running and time.monotonic() > until, 30.0)
+
+
+@pytest.mark.usefixtures("alone")
+def test_a_wait_says_what_it_waits_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    shown: list[str] = []
+
+    def display(content: dict[str, str], **_: object) -> SimpleNamespace:
+        shown.append(content["text/plain"])
+        return SimpleNamespace(update=lambda *_, **__: None)
+
+    monkeypatch.setattr(notices, "get_ipython", lambda: SimpleNamespace(kernel=True))
+    monkeypatch.setattr(notices, "display", display)
+    monkeypatch.setattr(notices, "DELAY", 0.01)
+    wait_until(lambda: shown, 10.0, "ten steps")
+    assert shown == ["This waits up to 10 s for: ten steps."]

@@ -6,6 +6,7 @@ import base64
 import io
 import re
 from html import unescape
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ import lab
 from humanoid_interfaces.action import NavigateToPose, WalkTo
 from humanoid_interfaces.msg import RobotState
 from lab.pictures.figure import BLUE, VERMILION
-from lab.pictures.film import RATE
+from lab.pictures.film import DRAWING, RATE
 from robot_sim.model.joint_names import ACTUATED_JOINTS
 from ros_runtime.record.client_events import FeedbackReceived, GoalAnswered, GoalSent, ResultReceived
 
@@ -146,3 +147,31 @@ def test_feedback_without_a_phase_is_refused(stage: Stage) -> None:
     walk_past(stage, at=1.5)
     with pytest.raises(lab.LabError, match="its feedback has no `status`"):
         lab.film_from_above(stage.recording)
+
+
+@pytest.mark.parametrize("film", ["beside", "from above", "alone"])
+def test_a_film_is_announced_while_it_is_drawn(
+    stage: Stage, monkeypatch: pytest.MonkeyPatch, film: str
+) -> None:
+    shown: list[str] = []
+
+    class Handle:
+        def update(self, *_: object, **__: object) -> None:
+            shown.append("removed")
+
+    def display(content: dict[str, str], **_: object) -> Handle:
+        shown.append(content["text/plain"])
+        return Handle()
+
+    walk_past(stage, at=1.5)
+    make = {
+        "beside": lambda: lab.film_beside({"a": stage.recording}),
+        "from above": lambda: travel(Stage(monkeypatch)),
+        "alone": lambda: stage.recording.film(),
+    }[film]
+    monkeypatch.setattr(lab.client.topics, "object_poses", dict)
+    monkeypatch.setattr(lab.notices, "get_ipython", lambda: SimpleNamespace(kernel=True))
+    monkeypatch.setattr(lab.notices, "display", display)
+    monkeypatch.setattr(lab.notices, "DELAY", 0.01)
+    make()
+    assert shown == [DRAWING, "removed"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import signal
 import time
 
@@ -124,7 +125,11 @@ def test_interrupting_a_cell_harms_neither_robot_nor_node(own_kernel: Kernel) ->
     own_kernel.client.execute("print('waiting', flush=True)\nlab.wait_until(lambda: False, timeout=60)")
     _await_output(own_kernel, "waiting")
     own_kernel.manager.interrupt_kernel()
-    assert own_kernel.client.get_shell_msg(timeout=30)["content"]["ename"] == "KeyboardInterrupt"
+    reply = own_kernel.client.get_shell_msg(timeout=30)["content"]
+    assert reply["ename"] == "KeyboardInterrupt"
+    where, what = reply["traceback"]
+    assert re.fullmatch(r"Cell In\[\d+\], line 2: lab.wait_until\(lambda: False, timeout=60\)", where)
+    assert what == "KeyboardInterrupt: interrupted"
     assert own_kernel.run("print(node.is_running, lab.mode())") == "True STANDING\n"
     assert own_kernel.children() == before
 
