@@ -19,6 +19,7 @@ from humanoid_interfaces.action import NavigateToPose, WalkTo
 from humanoid_interfaces.msg import RobotState
 from lab.pictures.figure import BLUE, VERMILION
 from lab.pictures.film import RATE
+from lab.pictures.film_beside import CAPTURE_POINT, GOAL
 from robot_sim.model.joint_names import ACTUATED_JOINTS
 from ros_runtime.record.client_events import FeedbackReceived, GoalAnswered, GoalSent, ResultReceived
 
@@ -85,8 +86,8 @@ def test_two_walks_beside_each_other_say_where_the_robot_was_at_the_status_and_a
     if "No film: " not in html.data:
         shown = frames(html)
         assert len(shown) == pytest.approx(3.0 * RATE, abs=1)
-        assert near(shown[0], BLUE) > 30  # the goal's dot, at least in the legend
-        assert near(shown[0], VERMILION) > 30
+        assert near(shown[0], GOAL) > 30  # the goal's dot, at least in the legend
+        assert near(shown[0], CAPTURE_POINT) > 30
     assert words(html) if "<img" in html.data else html.data
     for sentence in (
         "at once: SUCCEEDED after 1.5 s, 0.05 m before the goal, WALKING; in the end 0.20 m past the goal, STANDING.",

@@ -8,6 +8,9 @@ const PERIOD = 200; // ms
 
 const ARROWS = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"];
 const COPIED = ["kernelspec", "language_info"]; // metadata
+const NAMELESS = ".widget-radio-box input[type=radio]:not([name])";
+const REPLY = /^prediction_\d+\.reply\(\)/m; // the cell after an experiment
+const HEADING = /^#/;
 
 const pause = () => new Promise((resolve) => setTimeout(resolve, PERIOD));
 
@@ -17,9 +20,35 @@ function keepNewestPanel(shell) {
   panels.slice(0, -1).forEach((panel) => panel.dispose());
 }
 
-// An arrow key moves within a question's radio buttons; JupyterLab would go to the next cell.
-function keepArrows(event) {
-  if (ARROWS.includes(event.key) && event.target.matches?.(".jupyter-widgets input[type=radio]")) event.stopPropagation();
+// ipywidgets gives radio buttons no name, and the browser takes all buttons without a name for one group: an arrow key
+// would leave a question and change the answer to another.
+function nameGroups() {
+  for (const radio of document.querySelectorAll(NAMELESS)) {
+    const group = radio.closest(".widget-radio-box");
+    const question = radio.closest(".jp-OutputArea")?.querySelector("p")?.textContent;
+    group.id ||= `course-${crypto.randomUUID()}`;
+    group.role = "radiogroup";
+    group.ariaLabel = question ?? null;
+    radio.name = group.id;
+  }
+}
+
+// An arrow key moves within a question's radio buttons; JupyterLab would go to the next cell. Esc leads back to the cell.
+function keepKeys(event, shell) {
+  const { key, target } = event;
+  if (ARROWS.includes(key) && target.matches?.(".jupyter-widgets input[type=radio]")) event.stopPropagation();
+  if (key === "Escape" && target.matches?.(".jp-OutputArea-output *")) shell.currentWidget?.content?.activate();
+}
+
+// The text below a prediction's reply tells the outcome; it appears when the reply has run (custom.css hides it).
+function hideOutcomes(notebook) {
+  let hidden = false;
+  for (const cell of notebook.widgets) {
+    const { outputs, sharedModel, type } = cell.model;
+    if (type === "code") hidden = REPLY.test(sharedModel.source) && !outputs.length;
+    else hidden &&= !HEADING.test(sharedModel.source);
+    cell.toggleClass("course-outcome", hidden && type === "markdown");
+  }
 }
 
 // What JupyterLab copies from the kernel into a notebook is no change that its reader has to save.
@@ -67,8 +96,15 @@ const plugin = {
   id: "humanoid-course:desk",
   autoStart: true,
   activate: ({ commands, docRegistry, shell }) => {
-    window.addEventListener("keydown", keepArrows, { capture: true }); // before JupyterLab, which listens at the document
-    docRegistry.addWidgetExtension("Notebook", { createNew: (_, context) => void keepClean(context) });
+    const early = { capture: true }; // before JupyterLab, which listens at the document
+    window.addEventListener("keydown", (event) => keepKeys(event, shell), early);
+    new MutationObserver(nameGroups).observe(document.body, { childList: true, subtree: true });
+    docRegistry.addWidgetExtension("Notebook", {
+      createNew: ({ content }, context) => {
+        keepClean(context);
+        content.modelContentChanged.connect(hideOutcomes);
+      },
+    });
     shell.layoutModified.connect(keepNewestPanel);
     commands.commandExecuted.connect((_, { id, args }) => {
       if (id === "rendermime:handle-local-link" && args.id) land(shell, args.path, args.id);
