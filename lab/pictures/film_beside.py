@@ -170,7 +170,10 @@ def _beside(pictures: tuple[Image.Image, ...]) -> Image.Image:
     for number, picture in enumerate(pictures):
         image.paste(picture, (number * (WIDTH + 8), 0))
     draw, x, y = ImageDraw.Draw(image), 8, pictures[0].height
-    for colour, text in ((GOAL, "goal"), (CAPTURE_POINT, "capture point: where the pelvis could come to rest")):
+    for colour, text in (
+        (GOAL, "goal"),
+        (CAPTURE_POINT, "capture point: where the pelvis could come to rest"),
+    ):
         draw.ellipse((x, y + 6, x + 10, y + 16), fill=colour)
         draw.text((x + 16, y + 2), text, font=font(13), fill="white")
         x += 36 + round(draw.textlength(text, font=font(13)))

@@ -14,7 +14,7 @@ from lab.pictures.labels import text_width
 from lab.pictures.quantities import quantity_named
 from lab.pictures.recording import Recording
 
-MEANS_WIDTH = 5.6  # inches
+MEANS_WIDTH = 5.0  # inches
 STYLES = (("-", BLUE), ("--", VERMILION), (":", GREY))
 
 
@@ -40,7 +40,7 @@ def plot_curves(
         raise LabError(f"there are {len(curves)} curves; plot_curves draws one to {len(STYLES)}")
     lines = {name: (np.asarray(xs, float), np.asarray(ys, float)) for name, (xs, ys) in curves.items()}
     words = [f"{title}."]
-    with panel(6.6, 3.0, title) as (page, axes):
+    with panel(5.4, 3.0, title) as (page, axes):
         for (name, (xs, ys)), (line, colour) in zip(lines.items(), STYLES, strict=False):
             if not len(xs) or xs.shape != ys.shape:
                 raise LabError(

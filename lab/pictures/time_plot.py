@@ -14,8 +14,10 @@ from lab.pictures.labels import ROW, Mark, overhang, rows_of
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-WIDTH, HEIGHT, SPACE = 6.6, 1.6, 0.18  # inches, of a panel, and between two panels
-MAX_STRETCH = 1.5  # of the first panel's range, so that a dashed curve fits in; one that needs more is cut off
+WIDTH, HEIGHT, SPACE = 5.4, 1.6, 0.18  # inches, of a panel, and between two panels
+MAX_STRETCH = (
+    1.5  # of the first panel's range, so that a dashed curve fits in; one that needs more is cut off
+)
 MAX_DRAWN_POINTS = 40  # a curve of at most this many values also has points
 TIME = "s since the recording began (system clock)"
 

@@ -105,15 +105,17 @@ def _arrow(arrow: Arrow, centre: dict[str, int], y: int) -> list[str]:
         ]
     back = -8 if end > start else 8
     middle = (start + end) // 2
-    lines = [
-        f'<text x="{middle}" y="{y - 5 - LINE_HEIGHT * above}" text-anchor="middle" fill="{colour}">{escape(line)}</text>'
-        for above, line in enumerate(reversed(_lines(arrow)))
-    ]
+    lines = _lines(arrow)
+    first = y - 5 - LINE_HEIGHT * (len(lines) - 1)
+    style = f'text-anchor="middle" fill="{colour}"'
     return [
         time,
         f'<line x1="{start}" y1="{y}" x2="{end}" y2="{y}" stroke="{colour}" stroke-width="1.5"{DASHES[arrow.kind]}/>',
         f'<path d="M{end} {y} l{back} -4 v8 z" fill="{colour}"/>',
-        *reversed(lines),
+        *(
+            f'<text x="{middle}" y="{first + LINE_HEIGHT * row}" {style}>{escape(line)}</text>'
+            for row, line in enumerate(lines)
+        ),
     ]
 
 

@@ -10,7 +10,9 @@ const ARROWS = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"];
 const COPIED = ["kernelspec", "language_info"]; // metadata
 const NAMELESS = ".widget-radio-box input[type=radio]:not([name])";
 const REPLY = /^prediction_\d+\.reply\(\)/m; // the cell after an experiment
-const HEADING = /^#/;
+const NEW_TASK = /^(#+ |%%)/; // a heading, or a program to write
+
+let groups = 0; // of radio buttons, so far
 
 const pause = () => new Promise((resolve) => setTimeout(resolve, PERIOD));
 
@@ -25,10 +27,9 @@ function keepNewestPanel(shell) {
 function nameGroups() {
   for (const radio of document.querySelectorAll(NAMELESS)) {
     const group = radio.closest(".widget-radio-box");
-    const question = radio.closest(".jp-OutputArea")?.querySelector("p")?.textContent;
-    group.id ||= `course-${crypto.randomUUID()}`;
+    group.id ||= `course-question-${++groups}`;
     group.role = "radiogroup";
-    group.ariaLabel = question ?? null;
+    group.ariaLabel = radio.closest(".jp-OutputArea")?.querySelector("p")?.textContent ?? "answers";
     radio.name = group.id;
   }
 }
@@ -36,8 +37,9 @@ function nameGroups() {
 // An arrow key moves within a question's radio buttons; JupyterLab would go to the next cell. Esc leads back to the cell.
 function keepKeys(event, shell) {
   const { key, target } = event;
-  if (ARROWS.includes(key) && target.matches?.(".jupyter-widgets input[type=radio]")) event.stopPropagation();
-  if (key === "Escape" && target.matches?.(".jp-OutputArea-output *")) shell.currentWidget?.content?.activate();
+  const isIn = (place) => target.matches?.(place);
+  if (ARROWS.includes(key) && isIn(".jupyter-widgets input[type=radio]")) event.stopPropagation();
+  if (key === "Escape" && isIn(".jp-OutputArea-output *")) shell.currentWidget?.content?.activeCell?.node.focus();
 }
 
 // The text below a prediction's reply tells the outcome; it appears when the reply has run (custom.css hides it).
@@ -45,8 +47,8 @@ function hideOutcomes(notebook) {
   let hidden = false;
   for (const cell of notebook.widgets) {
     const { outputs, sharedModel, type } = cell.model;
-    if (type === "code") hidden = REPLY.test(sharedModel.source) && !outputs.length;
-    else hidden &&= !HEADING.test(sharedModel.source);
+    if (REPLY.test(sharedModel.source)) hidden = !outputs?.length;
+    else if (NEW_TASK.test(sharedModel.source)) hidden = false;
     cell.toggleClass("course-outcome", hidden && type === "markdown");
   }
 }
@@ -103,6 +105,7 @@ const plugin = {
       createNew: ({ content }, context) => {
         keepClean(context);
         content.modelContentChanged.connect(hideOutcomes);
+        context.ready.then(() => hideOutcomes(content));
       },
     });
     shell.layoutModified.connect(keepNewestPanel);
