@@ -42,7 +42,8 @@ OTHER_OUTPUTS = (
     """
 from ros_runtime.drawing.sequence_diagram import Arrow, sequence_svg
 from IPython.display import HTML
-HTML(sequence_svg([Arrow(0.0, "notebook", "server", "request")], title="A call"))""",
+names = ["notebook", "parent", "child", "motors", "robot", "world", "moon"]
+HTML(sequence_svg([Arrow(0.0, *names[:2], "request")], title="Wide", participants=names))""",
     """
 display({"text/plain": ""}, raw=True)  # a notice that was removed
 of_an_ended_kernel = {"version_major": 2, "version_minor": 0, "model_id": "ended"}
@@ -298,6 +299,13 @@ def test_questions_plots_and_drawings_suit_both_themes(page: Page, folder: Path,
     assert page.locator(".jp-OutputArea-child:visible", has=page.locator("pre:empty")).count() == 0
     for drawing in page.locator(".course-drawing, .jp-RenderedMarkdown img").all():
         assert "invert" in drawing.evaluate("drawing => getComputedStyle(drawing).filter")
+    wide = page.locator("svg.course-drawing", has_text="Wide")
+    assert wide.evaluate(
+        "svg => svg.getBoundingClientRect().width >= svg.viewBox.baseVal.width"
+    )  # no small letters
+    assert wide.locator("xpath=..").evaluate("output => output.scrollWidth > output.clientWidth")
+    page.get_by_role("group", name="Wide").press("ArrowRight")
+    page.wait_for_function("document.activeElement.scrollLeft > 0")
     frame = {found["id"] for found in violations(page).response["violations"]}
     stated = (PROJECT / "docs/accessibility.md").read_text(encoding="utf-8")
     assert {rule for rule in frame if f"`{rule}`" not in stated} == set()  # what JupyterLab itself lacks

@@ -96,6 +96,16 @@ def test_two_walks_beside_each_other_say_where_the_robot_was_at_the_status_and_a
         assert sentence in html.data
 
 
+def test_the_film_of_an_arm_says_from_where_to_where_its_joint_has_moved(stage: Stage) -> None:
+    names = [*ACTUATED_JOINTS]
+    for tenth in range(11):
+        stage.walk(tenth / 10)
+        bend = [-0.5 - tenth / 10 if name == "l_elbow" else 0.0 for name in names]
+        stage.publish("joint_states", JointState(name=names, position=bend), tenth / 10)
+    film = stage.end(1.0).film()
+    assert "The robot for 1.0 s; l_elbow begins at -0.50 rad and ends at -1.50 rad" in film.data
+
+
 def test_a_recording_without_a_goal_says_what_to_do(stage: Stage) -> None:
     stage.walk(0.5)
     stage.end(1.0)

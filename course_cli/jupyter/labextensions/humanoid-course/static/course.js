@@ -6,9 +6,12 @@ const LAYOUT_TIMEOUT = 30; // s, from the time at which its heading is there
 const STEADY = 25; // times that a heading was seen at the same place; JupyterLab may still scroll back to the first cell
 const PERIOD = 200; // ms
 
-const ARROWS = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"];
+const SIDEWAYS = ["ArrowLeft", "ArrowRight"];
+const ARROWS = ["ArrowUp", "ArrowDown", ...SIDEWAYS];
 const COPIED = ["kernelspec", "language_info"]; // metadata
 const NAMELESS = ".widget-radio-box input[type=radio]:not([name])";
+const OUTPUT = ".jp-OutputArea-output:not([tabindex])";
+const WIDE = `:is(${OUTPUT}, ${OUTPUT} > details) > svg.course-drawing`;
 const REPLY = /^prediction_\d+\.reply\(\)/m; // the cell after an experiment
 const NEW_TASK = /^(#+ |%%)/; // a heading, or a program to write
 
@@ -34,12 +37,23 @@ function nameGroups() {
   }
 }
 
+// Keys reach a drawing that is wider than the page and scrolls (custom.css).
+function letDrawingsScroll() {
+  for (const drawing of document.querySelectorAll(WIDE)) {
+    const output = drawing.closest(".jp-OutputArea-output");
+    output.tabIndex = 0;
+    output.role = "group";
+    output.ariaLabel = drawing.querySelector("title")?.textContent ?? "drawing";
+  }
+}
+
 // An arrow key moves within a question's radio buttons; JupyterLab would go to the next cell. Esc leads back to the cell.
 function keepKeys(event, shell) {
   const { key, target } = event;
   const isIn = (place) => target.matches?.(place);
   if (ARROWS.includes(key) && isIn(".jupyter-widgets input[type=radio]")) event.stopPropagation();
-  if (key === "Escape" && isIn(".jp-OutputArea-output *")) shell.currentWidget?.content?.activeCell?.node.focus();
+  if (SIDEWAYS.includes(key) && isIn(".jp-OutputArea-output[tabindex]")) event.stopPropagation();
+  if (key === "Escape" && isIn(".jp-OutputArea *")) shell.currentWidget?.content?.activeCell?.node.focus();
 }
 
 // The text below a prediction's reply tells the outcome; it appears when the reply has run (custom.css hides it).
@@ -100,7 +114,11 @@ const plugin = {
   activate: ({ commands, docRegistry, shell }) => {
     const early = { capture: true }; // before JupyterLab, which listens at the document
     window.addEventListener("keydown", (event) => keepKeys(event, shell), early);
-    new MutationObserver(nameGroups).observe(document.body, { childList: true, subtree: true });
+    const added = new MutationObserver(() => {
+      nameGroups();
+      letDrawingsScroll();
+    });
+    added.observe(document.body, { childList: true, subtree: true });
     docRegistry.addWidgetExtension("Notebook", {
       createNew: ({ content }, context) => {
         keepClean(context);
