@@ -14,7 +14,7 @@ from lab.errors import LabError
 from ros_runtime.drawing.sequence_diagram import sequence_svg
 from ros_runtime.drawing.svg import shorten
 
-LABEL_LENGTH = 38  # characters that fit between two lifelines
+LABEL_LENGTH = 120  # characters, in four lines between two lifelines
 
 
 def draw_sequence(title: str = "What just happened") -> HTML:

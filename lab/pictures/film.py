@@ -28,6 +28,8 @@ from robot_sim.views.view import View
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 RATE = 12.5  # frames a second
+ON_ITS_PLACE = 0.05  # m, from the first place of the pelvis to the last
+MOVED = 0.1  # rad, between the lowest and the highest angle of a joint
 MAX_DURATION = 60.0  # s; such a film takes about 5 MB in the notebook
 DRAWING = "The film is being drawn, which takes about 10 s, on a busy machine longer."
 
@@ -72,7 +74,7 @@ def film_of_messages(
 ) -> HTML:
     """Film the robot from 0 to `seconds` from messages with their times (s); poses between messages are interpolated.
 
-    The film's alternative text names the marks, and how far the robot is from its start at the end.
+    The film's alternative text names the marks, and how far the robot has walked or which joint has moved most.
 
     Raises ValueError when the film would last longer than 60 s, or there is no such camera.
     """
@@ -82,13 +84,26 @@ def film_of_messages(
         words += f", slowed down {slow_motion:g} times"
     if marks:
         words += f" ({', '.join(f'{mark.label} at {mark.time:.1f} s' for mark in marks)})"
-    begin, end = (odometry[index][1].pose.pose.position for index in (0, -1))
-    words += f"; it ends {math.dist((begin.x, begin.y), (end.x, end.y)):.2f} m from where it began"
+    words += f"; {_in_the_end(odometry, joints)}"
 
     def postures(body: Humanoid) -> Iterator[None]:
         return set_postures(body, np.arange(count) / RATE / slow_motion, odometry, joints, objects)
 
     return _film(postures, words, lambda: words, camera, file, robot, fitted=True)
+
+
+def _in_the_end(
+    odometry: Sequence[tuple[float, Odometry]], joints: Sequence[tuple[float, JointState]]
+) -> str:
+    """Say how far the robot has walked; of a robot that stands on its place, which joint has moved most."""
+    begin, end = (odometry[index][1].pose.pose.position for index in (0, -1))
+    way = math.dist((begin.x, begin.y), (end.x, end.y))
+    angles = np.array([message.position for _, message in joints])
+    moved = np.ptp(angles, axis=0)
+    if way > ON_ITS_PLACE or moved.max() < MOVED:
+        return f"it ends {way:.2f} m from where it began"
+    most = int(moved.argmax())
+    return f"{joints[0][1].name[most]} begins at {angles[0, most]:.2f} rad and ends at {angles[-1, most]:.2f} rad"
 
 
 def set_postures(

@@ -14,7 +14,6 @@ from PIL import Image, ImageDraw
 
 from lab.errors import LabError
 from lab.notices import notice
-from lab.pictures.figure import BLUE, GREY, VERMILION
 from lab.pictures.film import DRAWING, MAX_DURATION, RATE, set_postures
 from lab.pictures.lettering import font
 from lab.pictures.picture import body_to_draw, figure
@@ -29,7 +28,9 @@ WIDTH, HEIGHT, ABOVE, BELOW = 330, 330, 30, 66  # px, of a picture, and for the 
 LEGEND, DOT_RADIUS = 26, 6  # px
 LEAD_TIME = 0.4  # s of the film before the goal is sent
 GRAVITY = 9.81  # m/s²
-STATUS_COLOURS = {"SUCCEEDED": "#007A5E", "ABORTED": VERMILION, "CANCELED": VERMILION}
+SHEET, PALE = "#262626", "#c8c8c8"  # dark in both themes, like the edge of a film
+GOAL, CAPTURE_POINT = "#56B4E9", "#F0884A"
+STATUS_COLOURS = {"SUCCEEDED": "#5BD6A8", "ABORTED": CAPTURE_POINT, "CANCELED": CAPTURE_POINT}
 
 
 @notice(DRAWING)
@@ -137,10 +138,10 @@ class _Walk:
         )
 
     def _frame(self, view: View, camera: str, t: float) -> Image.Image:
-        image = Image.new("RGB", (WIDTH, ABOVE + HEIGHT + BELOW), "white")
+        image = Image.new("RGB", (WIDTH, ABOVE + HEIGHT + BELOW), SHEET)
         seen = Image.fromarray(view.picture(camera))
         draw = ImageDraw.Draw(seen)
-        for (x, y), colour, flat in ((self.place, BLUE, 0.45), (self.capture_point(t), VERMILION, 1.0)):
+        for (x, y), colour, flat in ((self.place, GOAL, 0.45), (self.capture_point(t), CAPTURE_POINT, 1.0)):
             right, down = view.pixel_of((x, y, 0.0))
             size = DOT_RADIUS / flat
             draw.ellipse(
@@ -150,14 +151,14 @@ class _Walk:
             )
         image.paste(seen, (0, ABOVE))
         draw = ImageDraw.Draw(image)
-        draw.text((8, 6), self.name, font=font(15, bold=True), fill="black")
-        draw.text((WIDTH - 8, 8), f"{t - self.goal.sent:.1f} s", font=font(13), fill=GREY, anchor="ra")
+        draw.text((8, 6), self.name, font=font(15, bold=True), fill="white")
+        draw.text((WIDTH - 8, 8), f"{t - self.goal.sent:.1f} s", font=font(13), fill=PALE, anchor="ra")
         status, below = self.goal.status_at(t), ABOVE + HEIGHT
-        draw.text((8, below + 6), status, font=font(19, bold=True), fill=STATUS_COLOURS.get(status, GREY))
+        draw.text((8, below + 6), status, font=font(19, bold=True), fill=STATUS_COLOURS.get(status, PALE))
         draw.text(
-            (WIDTH - 8, below + 9), self.mode_at(t), font=font(15, bold=True), fill="black", anchor="ra"
+            (WIDTH - 8, below + 9), self.mode_at(t), font=font(15, bold=True), fill="white", anchor="ra"
         )
-        draw.text((8, below + 38), f"pelvis {_where(self.past_the_goal(t))}", font=font(14), fill="black")
+        draw.text((8, below + 38), f"pelvis {_where(self.past_the_goal(t))}", font=font(14), fill="white")
         return image
 
 
@@ -167,12 +168,15 @@ def _where(past: float) -> str:
 
 def _beside(pictures: tuple[Image.Image, ...]) -> Image.Image:
     width = sum(picture.width for picture in pictures) + 8 * (len(pictures) - 1)
-    image = Image.new("RGB", (width, pictures[0].height + LEGEND), "white")
+    image = Image.new("RGB", (width, pictures[0].height + LEGEND), SHEET)
     for number, picture in enumerate(pictures):
         image.paste(picture, (number * (WIDTH + 8), 0))
     draw, x, y = ImageDraw.Draw(image), 8, pictures[0].height
-    for colour, text in ((BLUE, "goal"), (VERMILION, "capture point: where the pelvis could come to rest")):
+    for colour, text in (
+        (GOAL, "goal"),
+        (CAPTURE_POINT, "capture point: where the pelvis could come to rest"),
+    ):
         draw.ellipse((x, y + 6, x + 10, y + 16), fill=colour)
-        draw.text((x + 16, y + 2), text, font=font(13), fill="black")
+        draw.text((x + 16, y + 2), text, font=font(13), fill="white")
         x += 36 + round(draw.textlength(text, font=font(13)))
     return image

@@ -17,8 +17,8 @@ from lab.pictures.thread_plot import NO_THREAD, Span, plot_spans, read_steps, sp
 from lab.running.student_nodes import StudentNode
 from ros_runtime.drawing.svg import escape, svg
 
-WIDTH, ROW, ABOVE = 700, 56, 58  # px
-NAME_X, GROUP_X, THREAD_X, RUNS_X = 12, 190, 430, 600  # px, where the parts of a row begin
+WIDTH, ROW, ABOVE = 586, 56, 58  # px
+NAME_X, GROUP_X, THREAD_X, RUNS_X = 12, 116, 354, 522  # px, where the parts of a row begin
 MOMENTS = 41  # on the slider
 FREE_COLOUR = "#007A5E"
 
@@ -108,7 +108,7 @@ class _Gates:
             place = "awaits, on no thread" if held[-1] == NO_THREAD else "runs"
             shown = [
                 *_name(name, y),
-                _pill(GROUP_X, y, 410, f"{place}; it keeps its group, the {group}", BLUE),
+                _pill(GROUP_X, y, 398, f"{place}; it keeps its group, the {group}", BLUE),
             ]
             return shown, f"{name} {place} and keeps the {group}."
         first = f"{group}: {keeper} is in" if keeper else f"{group}: free"

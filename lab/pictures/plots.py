@@ -10,9 +10,11 @@ from numpy.typing import ArrayLike
 
 from lab.errors import LabError
 from lab.pictures.figure import BLUE, GREY, VERMILION, annotate, as_html, panel
+from lab.pictures.labels import text_width
 from lab.pictures.quantities import quantity_named
 from lab.pictures.recording import Recording
 
+MEANS_WIDTH = 5.0  # inches
 STYLES = (("-", BLUE), ("--", VERMILION), (":", GREY))
 
 
@@ -38,7 +40,7 @@ def plot_curves(
         raise LabError(f"there are {len(curves)} curves; plot_curves draws one to {len(STYLES)}")
     lines = {name: (np.asarray(xs, float), np.asarray(ys, float)) for name, (xs, ys) in curves.items()}
     words = [f"{title}."]
-    with panel(6.6, 3.0, title) as (page, axes):
+    with panel(5.4, 3.0, title) as (page, axes):
         for (name, (xs, ys)), (line, colour) in zip(lines.items(), STYLES, strict=False):
             if not len(xs) or xs.shape != ys.shape:
                 raise LabError(
@@ -81,10 +83,13 @@ def plot_means(recordings: Mapping[str, Recording], x: str, y: str, *, title: st
         raise LabError("there is no recording to plot: make recordings with lab.record_robot() first")
     points = {name: (recording.mean(x), recording.mean(y)) for name, recording in recordings.items()}
     across, up = (f"mean {name}, {quantity_named(name).unit}" for name in (x, y))
-    with panel(4.8, 3.0, title, right=1.2) as (page, axes):  # on the right, the name of the last point
+    with panel(MEANS_WIDTH, 3.0, title) as (page, axes):
         axes.plot(*zip(*points.values(), strict=True), "o", color=BLUE, markersize=6.5)
         for name, point in points.items():
             annotate(axes, name, point, (8, -3))
+        left, right = axes.get_xlim()
+        share = (max(map(text_width, points)) + 0.15) / MEANS_WIDTH  # of a name beside the last point
+        axes.set_xlim(left, right + (right - left) * share / (1 - share))
         axes.set_xlabel(across)
         axes.set_ylabel(up)
         axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]))

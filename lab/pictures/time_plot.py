@@ -14,7 +14,10 @@ from lab.pictures.labels import ROW, Mark, overhang, rows_of
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-WIDTH, HEIGHT, SPACE = 6.6, 1.6, 0.18  # inches, of a panel, and between two panels
+WIDTH, HEIGHT, SPACE = 5.4, 1.6, 0.18  # inches, of a panel, and between two panels
+MAX_STRETCH = (
+    1.5  # of the first panel's range, so that a dashed curve fits in; one that needs more is cut off
+)
 MAX_DRAWN_POINTS = 40  # a curve of at most this many values also has points
 TIME = "s since the recording began (system clock)"
 
@@ -84,6 +87,7 @@ def _draw(panel: Axes, curve: Curve, seconds: float) -> None:
         ".-" if len(curve.times) <= MAX_DRAWN_POINTS else "-",
         color=BLUE,
         linewidth=1.5,
+        label="the robot",
     )
     panel.set_xlim(0, seconds)
     low, high = panel.get_ylim()
@@ -93,12 +97,14 @@ def _draw(panel: Axes, curve: Curve, seconds: float) -> None:
 
 
 def _draw_comparison(panel: Axes, name: str, function: Callable[[float], float], seconds: float) -> None:
-    """Draw a function within the axis limits of the robot's curve."""
-    limits = panel.get_ylim()
+    """Draw a function; it stretches the range of the robot's curve by at most MAX_STRETCH."""
+    low, high = panel.get_ylim()
     times = np.linspace(0.0, seconds, 1000)
     values = np.array([float(function(at)) for at in times])
     panel.plot(times, values, "--", color=VERMILION, linewidth=1.5, label=name)
-    panel.set_ylim(limits)
+    margin = 0.05 * (high - low)
+    lower, upper = min(low, np.nanmin(values) - margin), max(high, np.nanmax(values) + margin)
+    panel.set_ylim((lower, upper) if upper - lower <= MAX_STRETCH * (high - low) else (low, high))
     panel.legend(loc="best", frameon=False)
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import accumulate
+from textwrap import wrap
 from typing import Literal
 
 from ros_runtime.drawing.svg import escape, svg
@@ -17,6 +19,8 @@ TOP = 74
 BOTTOM = 20
 NOTE_GAP = 10  # px between a note's dot and its text
 LETTER_WIDTH = 8  # px, of the widest letter
+LINE_LENGTH = 30  # characters; a longer label of an arrow between two participants gets more lines
+LINE_HEIGHT = 15  # px
 COLOURS = {"request": "#1f5fa8", "answer": "#2c7a3f", "message": "#595959"}
 DASHES = {"request": "", "answer": ' stroke-dasharray="7 4"', "message": ' stroke-dasharray="2 3"'}
 
@@ -55,19 +59,30 @@ def sequence_svg(arrows: Sequence[Arrow], *, title: str, participants: Sequence[
         centre[a.sender] + NOTE_GAP + LETTER_WIDTH * len(a.label) for a in ordered if a.sender == a.receiver
     ]
     width = max(LEFT + lane_width * len(lanes), *notes, 0)
-    height = TOP + ROW_HEIGHT * (len(ordered) + 1) + BOTTOM
+    rows = list(accumulate((_row_height(arrow) for arrow in ordered), initial=TOP))[1:]
+    height = rows[-1] + ROW_HEIGHT + BOTTOM
     parts: list[str] = []
     for name, x in centre.items():
         parts += _lifeline(name, x, lane_width, height)
-    for row, arrow in enumerate(ordered, start=1):
-        parts += _arrow(arrow, centre, TOP + row * ROW_HEIGHT)
+    for y, arrow in zip(rows, ordered, strict=True):
+        parts += _arrow(arrow, centre, y)
     return svg(parts, width=width, height=height, title=title, words=_in_words(ordered))
 
 
 def _room(arrow: Arrow, lanes: Sequence[str]) -> int:
     """Return the width (px) of lanes between which the label of an arrow fits."""
     crossed = abs(lanes.index(arrow.sender) - lanes.index(arrow.receiver))
-    return LETTER_WIDTH * len(arrow.label) // crossed if crossed else 0
+    return LETTER_WIDTH * max(map(len, _lines(arrow))) // crossed if crossed else 0
+
+
+def _lines(arrow: Arrow) -> list[str]:
+    if arrow.sender == arrow.receiver or len(arrow.label) <= LINE_LENGTH:
+        return [arrow.label]
+    return wrap(arrow.label, LINE_LENGTH)
+
+
+def _row_height(arrow: Arrow) -> int:
+    return ROW_HEIGHT + LINE_HEIGHT * (len(_lines(arrow)) - 1)
 
 
 def _lifeline(name: str, x: int, lane_width: int, height: int) -> list[str]:
@@ -89,11 +104,18 @@ def _arrow(arrow: Arrow, centre: dict[str, int], y: int) -> list[str]:
             f'<text x="{start + NOTE_GAP}" y="{y + 4}" fill="{colour}">{escape(arrow.label)}</text>',
         ]
     back = -8 if end > start else 8
+    middle = (start + end) // 2
+    lines = _lines(arrow)
+    first = y - 5 - LINE_HEIGHT * (len(lines) - 1)
+    style = f'text-anchor="middle" fill="{colour}"'
     return [
         time,
         f'<line x1="{start}" y1="{y}" x2="{end}" y2="{y}" stroke="{colour}" stroke-width="1.5"{DASHES[arrow.kind]}/>',
         f'<path d="M{end} {y} l{back} -4 v8 z" fill="{colour}"/>',
-        f'<text x="{(start + end) // 2}" y="{y - 5}" text-anchor="middle" fill="{colour}">{escape(arrow.label)}</text>',
+        *(
+            f'<text x="{middle}" y="{first + LINE_HEIGHT * row}" {style}>{escape(line)}</text>'
+            for row, line in enumerate(lines)
+        ),
     ]
 
 

@@ -42,7 +42,8 @@ OTHER_OUTPUTS = (
     """
 from ros_runtime.drawing.sequence_diagram import Arrow, sequence_svg
 from IPython.display import HTML
-HTML(sequence_svg([Arrow(0.0, "notebook", "server", "request")], title="A call"))""",
+names = ["notebook", "parent", "child", "motors", "robot", "world", "moon"]
+HTML(sequence_svg([Arrow(0.0, *names[:2], "request")], title="Wide", participants=names))""",
     """
 display({"text/plain": ""}, raw=True)  # a notice that was removed
 of_an_ended_kernel = {"version_major": 2, "version_minor": 0, "model_id": "ended"}
@@ -202,6 +203,8 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
     cells = [
         new_code_cell('import lab\n\nprediction_1 = lab.predict("services", 1)\nprediction_1'),
         new_code_cell("prediction_1.reply()"),
+        new_markdown_cell("There is **no response**."),
+        new_markdown_cell("## The next part"),
     ]
     write(folder / TOP / "chapters" / "predict.ipynb", *cells)
     page.goto(address.replace("start_here.ipynb", "chapters/predict.ipynb") + "&reset")
@@ -210,6 +213,9 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
     notebook.get_by_text("import lab").click()
     page.keyboard.press("Shift+Enter")
     page.get_by_text("Choose a, b or c.").wait_for()
+    outcome = notebook.get_by_text("There is no response.")
+    expect(outcome).to_be_hidden()
+    expect(notebook.get_by_role("heading", name="The next part")).to_be_visible()
 
     page.locator(".course-choices input").first.focus()
     page.keyboard.press("Space")
@@ -225,7 +231,31 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
     reply = page.get_by_text(re.compile(r"You predicted c: \w+"))  # which one c is, your number says
     reply.wait_for()
     assert reply.evaluate("pre => getComputedStyle(pre).wordBreak") == "normal"
+    expect(outcome).to_be_visible()
     assert notebook.locator(".jp-CodeCell .cm-lineWrapping").count() > 0
+
+
+def test_arrow_keys_stay_in_their_question_and_escape_leads_back_to_its_cell(
+    page: Page, folder: Path, address: str
+) -> None:
+    cells = [new_code_cell(f'import lab\n\nlab.quiz("services", {number})') for number in (1, 2)]
+    write(folder / TOP / "chapters" / "questions.ipynb", *cells)
+    open_chapter(page, address, "questions")
+    page.get_by_role("menuitem", name="Run", exact=True).click()
+    page.get_by_text("Run All Cells", exact=True).click()
+    first, second = (page.get_by_role("radiogroup", name=f"Question {number}.") for number in (1, 2))
+    last = second.get_by_role("radio").last
+    last.press("Space")
+    for _ in range(2):  # to the first answer, and to the one after it
+        page.keyboard.press("ArrowDown")
+    checked = "answers => answers.map(answer => answer.checked)"
+    assert second.get_by_role("radio").evaluate_all(checked) == [False, True, False]
+    assert first.get_by_role("radio").evaluate_all(checked) == [False] * 3
+    page.keyboard.press("Escape")
+    page.get_by_text("Mode: Command").wait_for()
+    expect(page.locator(".jp-Cell:focus")).to_contain_text("Question 2.")
+    page.keyboard.press("ArrowUp")
+    expect(page.locator(".jp-Cell.jp-mod-active:visible")).to_contain_text("Question 1.")
 
 
 def test_a_self_check_saves_the_program_that_it_checks(page: Page, folder: Path, address: str) -> None:
@@ -269,6 +299,13 @@ def test_questions_plots_and_drawings_suit_both_themes(page: Page, folder: Path,
     assert page.locator(".jp-OutputArea-child:visible", has=page.locator("pre:empty")).count() == 0
     for drawing in page.locator(".course-drawing, .jp-RenderedMarkdown img").all():
         assert "invert" in drawing.evaluate("drawing => getComputedStyle(drawing).filter")
+    wide = page.locator("svg.course-drawing", has_text="Wide")
+    assert wide.evaluate(
+        "svg => svg.getBoundingClientRect().width >= svg.viewBox.baseVal.width"
+    )  # no small letters
+    assert wide.locator("xpath=..").evaluate("output => output.scrollWidth > output.clientWidth")
+    page.get_by_role("group", name="Wide").press("ArrowRight")
+    page.wait_for_function("document.activeElement.scrollLeft > 0")
     frame = {found["id"] for found in violations(page).response["violations"]}
     stated = (PROJECT / "docs/accessibility.md").read_text(encoding="utf-8")
     assert {rule for rule in frame if f"`{rule}`" not in stated} == set()  # what JupyterLab itself lacks

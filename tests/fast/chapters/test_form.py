@@ -120,6 +120,16 @@ def test_each_prediction_is_asked_for_then_required_then_answered(name: str) -> 
 
 
 @pytest.mark.parametrize("name", NAMES)
+def test_no_text_stands_between_a_prediction_and_its_reply(name: str) -> None:
+    # the lab shows the text below a reply only when the reply has run (course.js), as it tells the outcome
+    is_open = False
+    for cell in read(name).cells:
+        is_open |= "= lab.predict(" in cell.source
+        is_open &= ".reply()" not in cell.source
+        assert not (is_open and cell.cell_type == "markdown"), cell.id
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_an_experiment_begins_with_its_prediction(name: str) -> None:
     waiting = [cell.source for cell in read(name).cells if ".require()" in cell.source]
     assert all(source.splitlines()[0].endswith(".require()") for source in waiting)

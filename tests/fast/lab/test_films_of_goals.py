@@ -20,6 +20,7 @@ from humanoid_interfaces.action import NavigateToPose, WalkTo
 from humanoid_interfaces.msg import RobotState
 from lab.pictures.figure import BLUE, VERMILION
 from lab.pictures.film import DRAWING, RATE
+from lab.pictures.film_beside import CAPTURE_POINT, GOAL
 from robot_sim.model.joint_names import ACTUATED_JOINTS
 from ros_runtime.record.client_events import FeedbackReceived, GoalAnswered, GoalSent, ResultReceived
 
@@ -86,14 +87,24 @@ def test_two_walks_beside_each_other_say_where_the_robot_was_at_the_status_and_a
     if "No film: " not in html.data:
         shown = frames(html)
         assert len(shown) == pytest.approx(3.0 * RATE, abs=1)
-        assert near(shown[0], BLUE) > 30  # the goal's dot, at least in the legend
-        assert near(shown[0], VERMILION) > 30
+        assert near(shown[0], GOAL) > 30  # the goal's dot, at least in the legend
+        assert near(shown[0], CAPTURE_POINT) > 30
     assert words(html) if "<img" in html.data else html.data
     for sentence in (
         "at once: SUCCEEDED after 1.5 s, 0.05 m before the goal, WALKING; in the end 0.20 m past the goal, STANDING.",
         "settled: SUCCEEDED after 2.5 s, 0.20 m past the goal, STANDING; in the end 0.20 m past the goal, STANDING.",
     ):
         assert sentence in html.data
+
+
+def test_the_film_of_an_arm_says_from_where_to_where_its_joint_has_moved(stage: Stage) -> None:
+    names = [*ACTUATED_JOINTS]
+    for tenth in range(11):
+        stage.walk(tenth / 10)
+        bend = [-0.5 - tenth / 10 if name == "l_elbow" else 0.0 for name in names]
+        stage.publish("joint_states", JointState(name=names, position=bend), tenth / 10)
+    film = stage.end(1.0).film()
+    assert "The robot for 1.0 s; l_elbow begins at -0.50 rad and ends at -1.50 rad" in film.data
 
 
 def test_a_recording_without_a_goal_says_what_to_do(stage: Stage) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from drawings import read
@@ -119,6 +121,15 @@ def test_a_curve_to_compare_with_is_named_and_does_not_stretch_the_panel(stage: 
     assert "Dashed beside height: a stone." in drawing.alt
     ticks = [float(text.replace("−", "-")) for text in drawing.texts if text.replace("−", "-")[-1:].isdigit()]
     assert min(ticks) >= -0.1
+
+
+def test_a_curve_to_compare_with_that_goes_a_little_further_is_shown_to_its_end(stage: Stage) -> None:
+    for twentieth in range(20):
+        stage.walk(twentieth / 20, x=twentieth / 20)
+    drawing = read(stage.end(1.0).plot("x", compare={"wanted": lambda t: 1.3 * t}))
+    assert {"the robot", "wanted"} < set(drawing.texts)
+    ticks = [float(text) for text in drawing.texts if re.fullmatch(r"\d\.\d+", text)]
+    assert max(ticks) > 1.2
 
 
 def test_the_time_between_two_moments_is_coloured_and_measured(stage: Stage) -> None:

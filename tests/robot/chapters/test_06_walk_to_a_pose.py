@@ -152,7 +152,6 @@ def test_one_level_too_few_ends_the_client_and_not_the_walk(chapter: Executed) -
         "AttributeError: 'WalkTo_FeedbackMessage' object has no attribute 'distance_remaining'",
         "robot: WALKING",
         "robot: STANDING after",
-        "for nobody",
     )
 
 

@@ -6,8 +6,16 @@ const LAYOUT_TIMEOUT = 30; // s, from the time at which its heading is there
 const STEADY = 25; // times that a heading was seen at the same place; JupyterLab may still scroll back to the first cell
 const PERIOD = 200; // ms
 
-const ARROWS = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"];
+const SIDEWAYS = ["ArrowLeft", "ArrowRight"];
+const ARROWS = ["ArrowUp", "ArrowDown", ...SIDEWAYS];
 const COPIED = ["kernelspec", "language_info"]; // metadata
+const NAMELESS = ".widget-radio-box input[type=radio]:not([name])";
+const OUTPUT = ".jp-OutputArea-output:not([tabindex])";
+const WIDE = `:is(${OUTPUT}, ${OUTPUT} > details) > svg.course-drawing`;
+const REPLY = /^prediction_\d+\.reply\(\)/m; // the cell after an experiment
+const NEW_TASK = /^(#+ |%%)/; // a heading, or a program to write
+
+let groups = 0; // of radio buttons, so far
 
 const pause = () => new Promise((resolve) => setTimeout(resolve, PERIOD));
 
@@ -17,9 +25,46 @@ function keepNewestPanel(shell) {
   panels.slice(0, -1).forEach((panel) => panel.dispose());
 }
 
-// An arrow key moves within a question's radio buttons; JupyterLab would go to the next cell.
-function keepArrows(event) {
-  if (ARROWS.includes(event.key) && event.target.matches?.(".jupyter-widgets input[type=radio]")) event.stopPropagation();
+// ipywidgets gives radio buttons no name, and the browser takes all buttons without a name for one group: an arrow key
+// would leave a question and change the answer to another.
+function nameGroups() {
+  for (const radio of document.querySelectorAll(NAMELESS)) {
+    const group = radio.closest(".widget-radio-box");
+    group.id ||= `course-question-${++groups}`;
+    group.role = "radiogroup";
+    group.ariaLabel = radio.closest(".jp-OutputArea")?.querySelector("p")?.textContent ?? "answers";
+    radio.name = group.id;
+  }
+}
+
+// Keys reach a drawing that is wider than the page and scrolls (custom.css).
+function letDrawingsScroll() {
+  for (const drawing of document.querySelectorAll(WIDE)) {
+    const output = drawing.closest(".jp-OutputArea-output");
+    output.tabIndex = 0;
+    output.role = "group";
+    output.ariaLabel = drawing.querySelector("title")?.textContent ?? "drawing";
+  }
+}
+
+// An arrow key moves within a question's radio buttons; JupyterLab would go to the next cell. Esc leads back to the cell.
+function keepKeys(event, shell) {
+  const { key, target } = event;
+  const isIn = (place) => target.matches?.(place);
+  if (ARROWS.includes(key) && isIn(".jupyter-widgets input[type=radio]")) event.stopPropagation();
+  if (SIDEWAYS.includes(key) && isIn(".jp-OutputArea-output[tabindex]")) event.stopPropagation();
+  if (key === "Escape" && isIn(".jp-OutputArea *")) shell.currentWidget?.content?.activeCell?.node.focus();
+}
+
+// The text below a prediction's reply tells the outcome; it appears when the reply has run (custom.css hides it).
+function hideOutcomes(notebook) {
+  let hidden = false;
+  for (const cell of notebook.widgets) {
+    const { outputs, sharedModel, type } = cell.model;
+    if (REPLY.test(sharedModel.source)) hidden = !outputs?.length;
+    else if (NEW_TASK.test(sharedModel.source)) hidden = false;
+    cell.toggleClass("course-outcome", hidden && type === "markdown");
+  }
 }
 
 // What JupyterLab copies from the kernel into a notebook is no change that its reader has to save.
@@ -67,8 +112,20 @@ const plugin = {
   id: "humanoid-course:desk",
   autoStart: true,
   activate: ({ commands, docRegistry, shell }) => {
-    window.addEventListener("keydown", keepArrows, { capture: true }); // before JupyterLab, which listens at the document
-    docRegistry.addWidgetExtension("Notebook", { createNew: (_, context) => void keepClean(context) });
+    const early = { capture: true }; // before JupyterLab, which listens at the document
+    window.addEventListener("keydown", (event) => keepKeys(event, shell), early);
+    const added = new MutationObserver(() => {
+      nameGroups();
+      letDrawingsScroll();
+    });
+    added.observe(document.body, { childList: true, subtree: true });
+    docRegistry.addWidgetExtension("Notebook", {
+      createNew: ({ content }, context) => {
+        keepClean(context);
+        content.modelContentChanged.connect(hideOutcomes);
+        context.ready.then(() => hideOutcomes(content));
+      },
+    });
     shell.layoutModified.connect(keepNewestPanel);
     commands.commandExecuted.connect((_, { id, args }) => {
       if (id === "rendermime:handle-local-link" && args.id) land(shell, args.path, args.id);
