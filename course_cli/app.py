@@ -139,8 +139,18 @@ def _require_utf8() -> None:
         os.execv(sys.executable, [sys.executable, *sys.orig_argv[1:]])
 
 
+def _without_type_of_flags(ctx: Any, command: Any) -> Any:
+    """Return a command whose help shows no <bool> behind its flags, as they take no value."""
+    for option in command.get_params(ctx):
+        if getattr(option, "is_bool_flag", False):
+            option.metavar = ""
+    for each in getattr(command, "commands", {}).values():
+        _without_type_of_flags(ctx, each)
+    return command
+
+
 class _Course(TyperGroup):
-    """Prints the message of a `CourseError` and exits with its status."""
+    """Prints the message of a `CourseError` and exits with its status; the help of flags shows no type."""
 
     def invoke(self, ctx: Any) -> Any:
         try:
@@ -148,6 +158,10 @@ class _Course(TyperGroup):
         except CourseError as error:
             LineConsole().print(str(error), style="red", markup=False)
             raise typer.Exit(error.exit_status) from error
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        command = super().get_command(ctx, cmd_name)
+        return command and _without_type_of_flags(ctx, command)
 
 
 def app(chosen: str | None) -> typer.Typer:
