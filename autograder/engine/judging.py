@@ -29,9 +29,9 @@ def judge(
 ) -> CheckVerdict:
     """Judge a check on one transcript of each of its scenarios.
 
-    The verdict is 'passed', 'failed', 'not run' if another check reports the cause, or 'error'. It is an error if the arena or the check itself failed, or if the
-    program gave no answer that the check could judge. The last of these is a failure if `is_last_attempt`; its advice
-    is to begin with the other checks if `others_failed`.
+    The verdict is 'passed', 'failed', 'not run' if another check reports the cause, or 'error'. It is an error if the
+    arena or the check itself failed, or if the program gave no answer that the check could judge. The last of these is
+    a failure if `is_last_attempt`; its advice is to begin with the other checks if `others_failed`.
     """
     log = "\n".join(_log(transcript) for transcript in transcripts)
     try:

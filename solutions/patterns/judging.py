@@ -67,8 +67,8 @@ def _how_to_answer(run: Transcript, number: int) -> str:
     printed = [line for line in run.output("stdout").splitlines() if line.strip()]
     if not printed:
         return (
-            f"Nothing was printed: ANSWERS has no entry for situation {number}, or main() does not print it. Add a line "
-            f"{number}: (pattern, reason), and let main() print it."
+            f"Nothing was printed: ANSWERS has no entry for situation {number}, or main() does not print it. Add a "
+            f"line {number}: (pattern, reason), and let main() print it."
         )
     if not _answers(run):
         return f"“{printed[-1][:60]}” is not in the right form: print only the number, the pattern and the reason."
