@@ -252,6 +252,7 @@ def test_a_self_check_says_whether_what_was_checked_is_saved(
     assert said in after
     assert (said in before) == (saved != WORK)  # nobody overlooks a warning
     assert "hidden checks add" in printed
+    assert "in other situations" in " ".join(printed.split())
 
 
 def test_submit_writes_what_a_grader_takes_and_says_what_it_holds(

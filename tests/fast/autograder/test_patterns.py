@@ -88,9 +88,7 @@ def test_a_syntax_error_is_reported_once_and_the_situations_are_not_run():
     assert first.status == "failed"
     assert first.observed.endswith("SyntaxError: '{' was never closed")
     assert {verdict.status for verdict in situations} == {"not run"}
-    assert {verdict.help for verdict in situations} == {
-        f"Needs a check that did not pass: “{first.title}”."
-    }
+    assert {verdict.help for verdict in situations} == {f"Needs a check that did not pass: “{first.title}”."}
 
 
 def test_a_missing_comma_is_named_and_the_log_shows_the_students_own_file():

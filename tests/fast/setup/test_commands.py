@@ -8,8 +8,9 @@ from importlib.metadata import version
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
-from course_cli.app import load
+from course_cli.app import app, load
 
 COURSE = Path(sys.executable).with_name("course")
 
@@ -73,3 +74,15 @@ def test_the_help_of_the_lab_names_what_it_opens() -> None:
 
     assert finished.returncode == 0
     assert "chapters and exercises" in finished.stdout
+
+
+def test_the_help_shows_no_type_behind_a_flag() -> None:
+    for name, flag in (("check", "--record"), ("replay", "--text"), ("grade", "--resume")):
+        shown = CliRunner().invoke(app(name), [name, "--help"]).output
+        assert flag in shown
+        assert "bool" not in shown
+
+
+def test_a_misspelled_exercise_gets_a_suggestion_and_any_other_name_the_list() -> None:
+    assert "there is no exercise 'paterns'; did you mean patterns?" in course("check", "paterns").stdout
+    assert "there are arm_architecture, " in course("check", "zzz").stdout
