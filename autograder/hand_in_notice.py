@@ -25,7 +25,7 @@ def hidden_checks_notice(exercise: str) -> str:
         return ""
     return (
         f"When your work is graded, {len(points)} hidden checks add {sum(points)} points: they judge the same clauses "
-        "with other inputs and moments."
+        "in other situations."
     )
 
 

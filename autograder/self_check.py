@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from time import monotonic, sleep
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
@@ -39,6 +40,8 @@ OnEvidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
 EXTRA = (
     "An extra, which gives no points and changes no progress: these checks are made with the robot {robot}."
 )
+SAVE_TIMEOUT = 3.0  # s for JupyterLab to save the notebook
+SAVE_POLL = 0.1  # s
 NOTEBOOK_WIDTH = 104  # characters; fits into JupyterLab with its file browser on a screen of 1280 pixels
 
 
@@ -83,11 +86,17 @@ def self_check(exercise: str, file: str | Path | None = None, *, page: str | Pat
     Raises `UnusableSubmission` when the file cannot be read, and `NoPage` when the page cannot be written.
     """
     console = _console()
-    if Console().is_jupyter:
+    in_notebook = Console().is_jupyter
+    if in_notebook:
         save_notebook()
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
     if not file:
-        warning = saved_work_notice(exercise, read_submission(path, exercise).fingerprint)
+        program = read_submission(path, exercise).fingerprint
+        warning = saved_work_notice(exercise, program)
+        deadline = monotonic() + (SAVE_TIMEOUT if in_notebook else 0.0)
+        while warning.style and monotonic() < deadline:  # the page of JupyterLab saves the notebook meanwhile
+            sleep(SAVE_POLL)
+            warning = saved_work_notice(exercise, program)
         if warning.style:
             console.print(warning)  # before the verdicts, which may be long
     result = check_and_keep(console, path, exercise, page=Path(page) if page else None)
@@ -238,8 +247,10 @@ def _write_page(
 ) -> None:
     from autograder.work_page import write_work_page
 
-    console.print(f"writing {page}; a film of the robot takes some seconds …", style="dim", markup=False)
-    write_work_page(page, submission, result, recorder)
+    def announce_film() -> None:
+        console.print(f"writing {page}; a film of the robot takes some seconds …", style="dim", markup=False)
+
+    write_work_page(page, submission, result, recorder, announce_film)
     console.print(
         f"{page}: {page.stat().st_size / 1e3:,.0f} kB, to open in any browser or to send", markup=False
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import io
 import platform
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from importlib.metadata import distributions
@@ -59,8 +59,17 @@ class Shown:
     drawing: str = ""  # markup
 
 
-def write_work_page(page: Path, submission: Submission, grade: Grade, recorder: Recorder) -> None:
-    """Write the page of a graded program, whose runs the recorder has received."""
+def write_work_page(
+    page: Path,
+    submission: Submission,
+    grade: Grade,
+    recorder: Recorder,
+    before_film: Callable[[], None] = lambda: None,
+) -> None:
+    """Write the page of a graded program, whose runs the recorder has received.
+
+    `before_film` is called if a film, which takes some seconds, is about to be made.
+    """
     name = f"{grade.exercise}/{grade.exercise}.ipynb"
     notebook = exercises_folder() / name
     if not notebook.exists():  # in the students' archive, which has only the checks there
@@ -76,7 +85,7 @@ def write_work_page(page: Path, submission: Submission, grade: Grade, recorder: 
         title=title.splitlines()[0].lstrip("# "),
         task=Markup(markdown.render(text_of_cell(notebook, "task"))),
         grade=grade,
-        shown=_shown(grade, recorder),
+        shown=_shown(grade, recorder, before_film),
         programs={name: _highlighted(name, text) for name, text in submission.sources.items()},
         facts=_facts(grade),
         light=Markup(HtmlFormatter(style=LIGHT).get_style_defs(".program")),
@@ -84,13 +93,14 @@ def write_work_page(page: Path, submission: Submission, grade: Grade, recorder: 
     )
 
 
-def _shown(grade: Grade, recorder: Recorder) -> Shown:
+def _shown(grade: Grade, recorder: Recorder, before_film: Callable[[], None]) -> Shown:
     """Show the run in which the robot moves most."""
     most = max(recordings_in(recorder.files(grade)), key=_motion, default=None)
     if most is None or _motion(most) == 0:
         return _drawn(recorder, "No robot moves in these checks")
     speed = max(1, int(np.ceil(most.end / FILM_DURATION)))
     webp, still = io.BytesIO(), io.BytesIO()
+    before_film()
     try:
         film(most, Span(0.0, most.end), webp, speed=speed)
     except NoOpenGLError:

@@ -25,7 +25,7 @@ CourseOption = Annotated[
     typer.Option(
         "--course",
         metavar="FOLDER",
-        help="exercises of another repository, laid out like solutions/ (default: those of this course)",
+        help="a folder with the exercises of another course (default: those of this course)",
         callback=_use,
         is_eager=True,
     ),

@@ -2,34 +2,39 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from autograder.engine.exercise import file_names
 from autograder.engine.hand_in import MOST_FOLDERS, work_in
 from autograder.engine.submission import UnusableSubmission
-from ros_runtime.project import COURSE
+from ros_runtime.project import COURSE, WORK
 
 MAX_DEPTH_HERE = 2  # levels of folders to search below the current folder
 
 
-def own_work(exercise: str, file: Path | None) -> tuple[Path, list[str]]:
+def own_work(exercise: str, file: Path | None, naming: str = "check {} FILE") -> tuple[Path, list[str]]:
     """Return the student's file, and a sentence on each other file of the exercise in its folder.
 
     Raises:
-        UnusableSubmission: there is none.
+        UnusableSubmission: there is none; the message says how to name one, with the exercise at {} of `naming`.
     """
     if file and not file.is_dir():
         return file, []
     here = Path()
     own = Path("exercises") / exercise
+    course = WORK.resolve()
+    in_course = Path(os.path.relpath(course / own)) if here.resolve().is_relative_to(course) else own
     # The clone's own folders hold the grader's test submissions.
     below = 0 if here.resolve() == COURSE else MAX_DEPTH_HERE
-    places = [(file, MOST_FOLDERS)] if file else [(here, 0), (own, MOST_FOLDERS), (here, below)]
+    places = [(here, 0), (own, MOST_FOLDERS), (here, below), (in_course, MOST_FOLDERS)]
+    if file:
+        places = [(file, MOST_FOLDERS)]
     for folder, depth in places:
         if folder.is_dir() and (found := work_in(folder, exercise, depth=depth)):
             return found
     names = ", ".join([f"{exercise}.ipynb", *file_names(exercise)])
-    folders = str(file) if file else f"this folder and {own}"
+    folders = str(file) if file else f"this folder and {in_course}"
     raise UnusableSubmission(
-        f"found none of {names} in {folders}; name your file: ./course check {exercise} FILE"
+        f"found none of {names} in {folders}; name your file: ./course {naming.format(exercise)}"
     )

@@ -1,9 +1,11 @@
-"""Stores the last self-check of each exercise for the student's progress page, and reads progress files."""
+"""Stores the last self-check of each exercise, and what `course submit` wrote, and reads progress files."""
 
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import json
+import os
 from dataclasses import asdict, dataclass
 from datetime import datetime
 from pathlib import Path
@@ -13,6 +15,7 @@ from ros_runtime.project import WORK
 
 FILE = WORK / "exercises" / ".progress.json"  # not in an exercise's folder, because students submit that
 KIND = "checks"
+SUBMITTED = "submitted"  # SHA-256 of each file that `course submit` wrote, by its path from here
 
 
 @dataclass(frozen=True)
@@ -39,9 +42,32 @@ def store_check(exercise: str, passed: int, total: int, program: str = "", file:
     if not (file.parent / exercise).is_dir():  # an exercise of another course
         return
     check = LastCheck(passed, total, datetime.now().isoformat(timespec="seconds"), program)
-    entries = {**entries_of(file, KIND), exercise: asdict(check)}
+    _store(file, KIND, exercise, asdict(check))
+
+
+def was_submitted(path: Path, file: Path = FILE) -> bool:
+    """Return whether `course submit` wrote a file as it is now."""
+    return entries_of(file, SUBMITTED).get(_from_here(path, file)) == _digest(path)
+
+
+def store_submitted(path: Path, file: Path = FILE) -> None:
+    """Store that `course submit` wrote a file; does nothing if that cannot be stored."""
+    _store(file, SUBMITTED, _from_here(path, file), _digest(path))
+
+
+def _from_here(path: Path, file: Path) -> str:
+    return os.path.relpath(path.resolve(), file.parent.resolve())
+
+
+def _digest(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def _store(file: Path, kind: str, key: str, value: Any) -> None:
+    content = read_progress_file(file)
+    content[kind] = {**entries_of(file, kind), key: value}
     with contextlib.suppress(OSError):
-        file.write_text(json.dumps({KIND: entries}, indent=1) + "\n", encoding="utf-8")
+        file.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 
 
 def entries_of(file: Path, kind: str) -> dict[str, Any]:

@@ -31,6 +31,18 @@ class Failure(Exception):
         self.see = see
 
 
+class ReportedBy(Exception):
+    """Another check reports why this one cannot be judged, so that it is reported as not run.
+
+    Args:
+        title: of that check.
+    """
+
+    def __init__(self, title: str) -> None:
+        super().__init__(title)
+        self.title = title
+
+
 class CannotBeJudged(Exception):
     """The arena did not carry out the scenario, and the submission is not the cause: there is no grade."""
 

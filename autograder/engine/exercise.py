@@ -29,6 +29,7 @@ from typing import TYPE_CHECKING
 from autograder.engine.notebook import text_of_cell
 from ros_runtime.course_error import CourseError
 from ros_runtime.project import PROJECT
+from ros_runtime.suggestion import suggestion
 
 if TYPE_CHECKING:
     from autograder.authoring.checks import Check
@@ -112,7 +113,7 @@ def file_names(exercise: str) -> tuple[str, ...]:
     """Return the names of the files a student writes: one program, unless the exercise's __init__.py lists FILES.
 
     Raises:
-        UnknownExercise: there is none of that name; the message lists those there are.
+        UnknownExercise: there is none of that name; the message names a similar one, or all.
     """
     return getattr(exercise_module(exercise), "FILES", (f"{exercise}.py",))
 
@@ -126,7 +127,7 @@ def load_exercise(name: str, *, hidden: bool) -> Exercise:
     """Load an exercise with or without its hidden checks.
 
     Raises:
-        UnknownExercise: there is none of that name, or a person marks it; the message lists those there are.
+        UnknownExercise: there is none of that name, or a person marks it.
         UnusableExercise: its author has something to fix.
     """
     # Imported late: it takes time, and a command that lists names does not need it.
@@ -155,8 +156,9 @@ def exercise_module(exercise: str, module: str = "") -> ModuleType:
         UnusableExercise: the module cannot be imported.
     """
     folder = exercises_folder()
-    if exercise not in all_names():
-        raise UnknownExercise(f"there is no exercise {exercise!r}; there are {', '.join(all_names())}")
+    if exercise not in (known := all_names()):
+        advice = suggestion(exercise, known, f"there are {', '.join(known)}")
+        raise UnknownExercise(f"there is no exercise {exercise!r}; {advice}")
     try:
         return importlib.import_module(".".join(filter(None, (_package(folder), exercise, module))))
     except Exception as error:  # whatever an author's module can raise

@@ -35,7 +35,7 @@ Runs = dict[Scenario, Future[Transcript]]
 
 LONGEST_TRIED = 3  # last steps of a drawn sequence that are rerun alone, to find the shortest failing part
 VISIBLE_SEED = 0  # of the visible checks' scenarios: the same inputs in a self-check and in every batch
-MOST_ATTEMPTS: dict[CheckStatus, int] = {"passed": 1, "failed": 2, "not run": 1, "error": 4}
+MOST_ATTEMPTS: dict[CheckStatus, int] = {"passed": 1, "failed": 2, "not run": 2, "error": 4}
 
 
 @dataclass(frozen=True)
@@ -268,7 +268,7 @@ class _Session:
             is_last_attempt=attempt + 1 >= MOST_ATTEMPTS["error"],
             others_failed=any(other.status == "failed" for other in self._verdicts.values()),
         )
-        no_retry = verdict.status == "failed" and (
+        no_retry = verdict.status in ("failed", "not run") and (
             check.id in self._options.checks_without_retry or any(map(is_not_python, transcripts))
         )
         if verdict.status != "passed" and not no_retry:

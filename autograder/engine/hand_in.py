@@ -25,6 +25,7 @@ from autograder.engine.exercise import exercises_folder, file_names
 from autograder.engine.notebook import written_by
 from autograder.engine.submission import (
     MAX_NOTEBOOK_BYTES,
+    Submission,
     UnusableSubmission,
     most_bytes,
     read_bytes,
@@ -210,8 +211,7 @@ def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
     if len(candidates) == 1:
         return candidates[0], []
     exercise = candidates[0].exercise
-    release = exercises_folder().parent / "exercises" / exercise / f"{exercise}.ipynb"
-    given = [released(release), *(one.given for one in candidates)]
+    given = [released(_release(exercise)), *(one.given for one in candidates)]
 
     def standing(one: Candidate) -> int:
         if isinstance(one.sources, UnusableSubmission):
@@ -241,11 +241,26 @@ def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
         first = "a notebook" if chosen.is_notebook > one.is_notebook else "that name"
         return f"is as new as {chosen.path}, and {first} counts first"
 
+    def in_words(one: Candidate) -> str:
+        both_count = standings[one] == standings[chosen] == 0
+        return f"{one.path} {why(one)}" + ("; their programs differ" if both_count else "")
+
     others = sorted(
         (one for one in candidates if one is not chosen and not _same(one.sources, chosen.sources)),
         key=lambda one: str(one.path),
     )
-    return chosen, [f"{one.path} {why(one)}" for one in others]
+    return chosen, [in_words(one) for one in others]
+
+
+def is_starter(submission: Submission, *notebooks: Path) -> bool:
+    """Return whether nothing is filled in: these are the released files, or those of a notebook's untouched cells."""
+    given = [given_in(notebook.read_bytes()) for notebook in notebooks if notebook.is_file()]
+    given.append(released(_release(submission.exercise)))
+    return any(_same(submission.sources, texts) for texts in given)
+
+
+def _release(exercise: str) -> Path:
+    return exercises_folder().parent / "exercises" / exercise / f"{exercise}.ipynb"
 
 
 def given_in(notebook: bytes) -> dict[str, str]:

@@ -12,7 +12,7 @@ from autograder.authoring.diagnosis.exit_diagnosis import SANDBOX_FOLDER
 from autograder.authoring.diagnosis.readiness import require_ready, require_started
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.authoring.failure import CannotBeJudged, Failure, NoOccasion
+from autograder.authoring.failure import CannotBeJudged, Failure, NoOccasion, ReportedBy
 from autograder.authoring.lesson import in_words
 from autograder.engine.completeness import require_bounded, require_whole
 from autograder.engine.verdict import CheckStatus, CheckVerdict
@@ -29,9 +29,9 @@ def judge(
 ) -> CheckVerdict:
     """Judge a check on one transcript of each of its scenarios.
 
-    The verdict is 'passed', 'failed' or 'error'. It is an error if the arena or the check itself failed, or if the
-    program gave no answer that the check could judge. The last of these is a failure if `is_last_attempt`; its advice
-    is to begin with the other checks if `others_failed`.
+    The verdict is 'passed', 'failed', 'not run' if another check reports the cause, or 'error'. It is an error if the
+    arena or the check itself failed, or if the program gave no answer that the check could judge. The last of these is
+    a failure if `is_last_attempt`; its advice is to begin with the other checks if `others_failed`.
     """
     log = "\n".join(_log(transcript) for transcript in transcripts)
     try:
@@ -49,6 +49,8 @@ def judge(
             robot_time=failure.at,
             log=log,
         )
+    except ReportedBy as other:
+        return _not_run(check, other.title)
     except NoOccasion as requirement:
         if is_last_attempt:
             first = (
@@ -84,7 +86,11 @@ def verdict_without_run(check: Check, verdicts: Mapping[str, CheckVerdict]) -> C
     title = unmet[0].title
     if any(verdict.status == "error" for verdict in unmet):
         return verdict_on(check, "error", help=f"Not graded, because “{title}” was not graded.")
-    return verdict_on(check, "not run", help=f"Needs a check that did not pass: “{title}”.")
+    return _not_run(check, title)
+
+
+def _not_run(check: Check, needed: str) -> CheckVerdict:
+    return verdict_on(check, "not run", help=f"Needs a check that did not pass: “{needed}”.")
 
 
 def failed_scenarios(check: Check, transcripts: Sequence[Transcript]) -> list[Scenario]:

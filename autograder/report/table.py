@@ -58,7 +58,7 @@ def print_retry(console: Console, check: Check) -> None:
 
 
 def explanation(verdict: CheckVerdict) -> Table:
-    """Return a table with expected, observed with its time, next step, and the end of the node's output."""
+    """Return a table with expected, observed with its time, next step, and the end of the program's output."""
     table = Table.grid(padding=(0, 2), pad_edge=False)
     table.add_column(style="bold", no_wrap=True)
     table.add_column(overflow="fold")
@@ -173,7 +173,7 @@ def _lacks_points(verdict: CheckVerdict) -> bool:
 
 
 def verdict_text(verdict: CheckVerdict, longest: int = LONGEST_TEXT) -> str:
-    """Return what was expected, what was observed and when, what to do next, and what the node printed.
+    """Return what was expected, what was observed and when, what to do next, and what the program printed.
 
     Nothing is left out, so the text of a hidden check's verdict is for instructors only.
     """
@@ -182,6 +182,6 @@ def verdict_text(verdict: CheckVerdict, longest: int = LONGEST_TEXT) -> str:
     if verdict.robot_time is not None:
         lines.append(f"At {verdict.robot_time:.1f} s.")
     if verdict.log and verdict.status != "passed":
-        lines.append(f"What the node printed:\n{verdict.log}")
+        lines.append(f"What the program printed:\n{verdict.log}")
     text = "\n".join(lines)
     return text if len(text) <= longest else f"{text[:longest]}\n… cut here"

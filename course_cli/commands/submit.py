@@ -7,11 +7,13 @@ import warnings
 import zipfile
 from datetime import datetime
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Annotated
 
 import typer
 
 from autograder.engine.exercise import essay_names, file_names
+from autograder.engine.hand_in import is_starter
 from autograder.engine.submission import Submission, UnusableSubmission, read_submission
 from autograder.hand_in_notice import hidden_checks_notice
 from autograder.report.console import NOTICE, LineConsole
@@ -19,7 +21,7 @@ from course_cli.options import CourseOption
 from course_cli.own_work import own_work
 from ros_runtime.course_error import COMMAND_FAILED
 from ros_runtime.project import WORK
-from ros_runtime.self_checks import last_checks
+from ros_runtime.self_checks import FILE, last_checks, store_submitted, was_submitted
 
 
 def submit(
@@ -42,52 +44,73 @@ def submit(
 ) -> None:
     """Write one file for each exercise to hand in, and print what it holds.
 
-    If Python cannot run a program, an earlier file with a program that it can run stays.
+    It replaces the file that an earlier `submit` wrote for the exercise. A program that Python cannot run, or a starter
+    in which nothing is filled in, replaces no better program.
     """
     console = LineConsole()
     if file and len(exercises) > 1:
         raise typer.BadParameter("--file is the file of one exercise: name that exercise alone")
     out = out or _default_folder()
-    broken: list[str] = []
+    unfinished: list[str] = []
     unchecked: list[str] = []
+    strangers: list[Path] = []
+    has_failed = False
     for exercise in exercises:
-        path, left_aside = own_work(exercise, file)
+        path, left_aside = own_work(exercise, file, "submit {} --file FILE")
+        if out.resolve() == (path if path.is_dir() else path.parent).resolve():
+            raise typer.BadParameter(f"{out} holds your own {path.name}: give another folder as --out")
         submission = read_submission(path, exercise)
         for line in left_aside:
             console.print(f"left aside: {line}", style=NOTICE, markup=False)
         target = _target(path, exercise, out)
-        before = _earlier(target, exercise)
-        if error := _syntax_error(submission):
-            broken.append(exercise)
-            console.print(f"Python cannot run {path}: {error}", style=NOTICE, markup=False)
-            if before and not _syntax_error(before):
-                console.print(f"  {target} is not replaced: it keeps {_in_words(before)}", markup=False)
+        earlier = _earlier(exercise, out)
+        if flaw := _flaw(path, submission):
+            unfinished.append(exercise)
+            console.print(flaw, style=NOTICE, markup=False)
+            better = {old: work for old, work in earlier.items() if work and not _flaw(old, work)}
+            for old, work in better.items():
+                console.print(f"  {old} is not replaced: it keeps {_in_words(work)}", markup=False)
+            has_failed = has_failed or bool(better or _syntax_error(submission))
+            if better:
                 continue
         _copy(path, exercise, target)
-        console.print(f"{target}: {_contents(submission)}, as saved {_saved(path)}", markup=False)
+        console.print(
+            f"{target}: {_contents(submission)}, as saved {_saved(path)} (later edits are not in it: save them with "
+            "Ctrl+S, and submit again)",
+            markup=False,
+        )
         console.print(
             f"  fingerprint {submission.fingerprint}: your grade's page shows it again", markup=False
         )
-        if before and before.fingerprint != submission.fingerprint:
-            console.print(f"  it replaces another program, {_in_words(before)}", style=NOTICE, markup=False)
+        for old, before in earlier.items():
+            if old != target and not was_submitted(old, FILE):
+                strangers.append(old)
+                console.print(f"  {old} stays: submit did not write it", style=NOTICE, markup=False)
+                continue
+            if old != target:
+                old.unlink()
+            if said := _replaced(old, before, target, submission):
+                console.print(f"  it replaces {said}", style=NOTICE, markup=False)
+        store_submitted(target, FILE)
         if exercise in essay_names():
             console.print("  A person marks it.")
         elif checked := _last_check(submission):
             console.print(f"  Last self-check of this program: {checked}. {hidden_checks_notice(exercise)}")
-        elif not error:
+        elif not flaw:
             unchecked.append(exercise)
             console.print("  This program has not been checked.", style=NOTICE)
-    console.print(_next_step(broken, unchecked, out), markup=False)
-    if broken:
+    console.print(_next_step(unfinished, unchecked, strangers, out), markup=False)
+    if has_failed:
         raise typer.Exit(COMMAND_FAILED)
 
 
-def _next_step(broken: list[str], unchecked: list[str], out: Path) -> str:
-    """Return what to do, by the exercises whose program Python cannot run, and those that were not checked."""
-    if broken:
-        return f"Next: correct the program, save it, and type again: ./course submit {' '.join(broken)}"
-    first = "".join(f"./course check {exercise}; then " for exercise in unchecked)
-    return f"Next: {first}hand in what is in {out}/, unchanged."
+def _next_step(unfinished: list[str], unchecked: list[str], strangers: list[Path], out: Path) -> str:
+    """Return what to do, by the exercises with a flaw, those without a check, and the files that submit left there."""
+    if unfinished:
+        return f"Next: complete the program, save it, and type again: ./course submit {' '.join(unfinished)}"
+    first = [f"./course check {exercise}; " for exercise in unchecked]
+    first += [f"remove {path} unless it is what you mean to hand in; " for path in strangers]
+    return f"Next: {'then '.join([*first, ''])}hand in what is in {out}/, unchanged."
 
 
 def _default_folder() -> Path:
@@ -104,12 +127,50 @@ def _target(path: Path, exercise: str, out: Path) -> Path:
     return out / (f"{exercise}.ipynb" if is_notebook else file_names(exercise)[0])
 
 
-def _earlier(target: Path, exercise: str) -> Submission | None:
-    """Return what an earlier file holds; None if there is none that can be read."""
+def _earlier(exercise: str, out: Path) -> dict[Path, Submission | None]:
+    """Return what the files in a folder hold that may be handed in for an exercise; None for one that is unreadable."""
+    names = file_names(exercise)
+    others = names[0] if len(names) == 1 else f"{exercise}.zip"
+    paths = [path for name in (f"{exercise}.ipynb", others) if (path := out / name).is_file()]
+    return {path: _work_in(path, exercise) for path in paths}
+
+
+def _work_in(path: Path, exercise: str) -> Submission | None:
+    """Return what a file for handing in holds; None if it cannot be read."""
     try:
-        return read_submission(target, exercise) if target.exists() else None
-    except UnusableSubmission:
+        if path.suffix != ".zip":
+            return read_submission(path, exercise)
+        with zipfile.ZipFile(path) as archive, TemporaryDirectory() as folder:
+            for name in file_names(exercise):
+                if name in archive.namelist():
+                    archive.extract(name, folder)
+            return read_submission(Path(folder), exercise)
+    except (UnusableSubmission, zipfile.BadZipFile):
         return None
+
+
+def _replaced(old: Path, work: Submission | None, target: Path, new: Submission) -> str:
+    """Return in words what is replaced; "" if it is the same program in a file of the same name."""
+    words = "a file that cannot be read"
+    if work:
+        is_same = work.fingerprint == new.fingerprint
+        words = "the same program" if is_same else f"another program, {_in_words(work)}"
+        if is_same and old == target:
+            return ""
+    return words if old == target else f"{old.name}: {words}"
+
+
+def _flaw(path: Path, submission: Submission) -> str:
+    """Return why a program can get no points: nothing is filled in, or Python cannot run it; "" if it may."""
+    exercise = submission.exercise
+    notebook = WORK / "exercises" / exercise / f"{exercise}.ipynb"
+    if is_starter(submission, notebook, path):
+        return (
+            f"{path} is the starter as it was given out, which gets no points: write your code below "
+            "# YOUR CODE HERE, save it with Ctrl+S, and run its cell"
+        )
+    error = _syntax_error(submission)
+    return f"Python cannot run {path}: {error}" if error else ""
 
 
 def _syntax_error(submission: Submission) -> str:

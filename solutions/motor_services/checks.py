@@ -64,7 +64,7 @@ powers_off = check_of(model.grants_power_off, points=2, on=SWITCH, needs=server_
 powers_on = check_of(
     [model.grants_power_on, model.power_in_time],
     title="enable_motors with data true is accepted and switches the motors on, also before the first robot_state and "
-    "for five requests at once",
+    "for five requests at once; each request is answered in time",
     on=[SWITCH, SILENT_ROBOT],
     needs=powers_off,
 )

@@ -307,7 +307,7 @@ def power_in_time(call: Call) -> str:
     limit = UNCONFIRMED_TIMEOUT if waits else IN_TIME
     call.require(
         call.latency <= limit,
-        expected=f"a response to {question(call)} within {limit:g} s",
+        expected=f"a response to {question(call)}, {_which(call)}, within {limit:g} s",
         observed=f"the response took {call.latency:.1f} s",
         help="Publish and return the response: do not sleep in the callback, as other callbacks need its thread."
         if not waits
@@ -315,6 +315,12 @@ def power_in_time(call: Call) -> str:
         "response.",
     )
     return one_or_several(call)
+
+
+def _which(call: Call) -> str:
+    """Return which of the run's requests to the service a call is: "request 2 of 5"."""
+    asked = [each.sent.call for each in call.run.calls if each.service == call.service]
+    return f"request {asked.index(call.sent.call) + 1} of {len(asked)}"
 
 
 def _kind(call: Call) -> str | None:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from autograder.authoring import check
+from .judging import answers_everything, situation
 
-from . import judging
-from .judging import ANSWERS, LESSON, situation
+__all__ = ["answers_everything", "situations"]
 
-answers_everything = check(on=ANSWERS, see=LESSON, clauses=[1, 2, 4])(judging.answers_everything)
 situations = [
     situation(
         1,

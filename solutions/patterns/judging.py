@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 
-from autograder.authoring import Check, Failure, Transcript, expect, program, require_success
+from autograder.authoring import Check, Failure, Transcript, check, expect, program, require_success
 from autograder.authoring.checks import check_by
+from autograder.authoring.failure import ReportedBy
 
 LESSON = "01_robot_and_graph#patterns"
 ANSWERS = program("print_answers", timed=False)
@@ -22,7 +23,11 @@ def situation(number: int, about: str, answer: str, **against: str) -> Check:
     right_pattern, right_reason = answer.split()
 
     def judge(run: Transcript) -> None:
-        answers, expected = _answers(run), "the right pattern and the reason that decides it"
+        try:
+            answers = _answers(run)
+        except Failure as failure:
+            raise ReportedBy(answers_everything.title) from failure
+        expected = "the right pattern and the reason that decides it"
         expect(number in answers, expected=expected, observed="no answer", help=_how_to_answer(run, number))
         pattern, reason = answers[number]
         _require_form(number, pattern, reason)
@@ -34,6 +39,7 @@ def situation(number: int, about: str, answer: str, **against: str) -> Check:
     return check_by(judge, title, on=ANSWERS, see=LESSON, clauses=[1, 2, 3], id=id)
 
 
+@check(on=ANSWERS, see=LESSON, clauses=[1, 2, 4])
 def answers_everything(run: Transcript) -> None:
     """Each of the twelve situations has a pattern and a reason"""
     answers = _answers(run)
@@ -60,7 +66,10 @@ def _how_to_answer(run: Transcript, number: int) -> str:
     """Return advice on a situation without an answer."""
     printed = [line for line in run.output("stdout").splitlines() if line.strip()]
     if not printed:
-        return "Nothing was printed: main() has to print number, pattern and reason of each line in ANSWERS."
+        return (
+            f"Nothing was printed: ANSWERS has no entry for situation {number}, or main() does not print it. Add a "
+            f"line {number}: (pattern, reason), and let main() print it."
+        )
     if not _answers(run):
         return f"“{printed[-1][:60]}” is not in the right form: print only the number, the pattern and the reason."
     return f"Add a line {number}: (pattern, reason) to ANSWERS; main() prints it."

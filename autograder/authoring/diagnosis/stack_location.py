@@ -23,7 +23,7 @@ class Place:
     calls: str  # "" for a built-in function of Python, such as time.sleep
 
     def __str__(self) -> str:
-        calls = f", in a call of {self.calls}()" if self.calls else ""
+        calls = f", which called {self.calls}()" if self.calls else ""
         return f"line {self.line} of {self.file}, in {self.function}(){calls}"
 
 

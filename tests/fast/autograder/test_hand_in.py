@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from threading import Timer
 
 import pytest
 import typer
@@ -12,8 +13,9 @@ from nbformat.v4 import new_code_cell, new_notebook, writes
 from autograder import self_check as module
 from autograder.classroom.batch.collection import collect, files_of_exercises
 from autograder.engine.hand_in import Names
-from autograder.engine.submission import Submission, read_submission
+from autograder.engine.submission import Submission, UnusableSubmission, read_submission
 from autograder.engine.verdict import Grade
+from course_cli import own_work as own_work_module
 from course_cli.commands import submit as command
 from course_cli.own_work import own_work
 from ros_runtime.project import PROJECT
@@ -23,6 +25,12 @@ NAME = "battery_service"
 STARTER = PROJECT / f"exercises/{NAME}/{NAME}.ipynb"
 WORK, OTHER = "work = 1\n", "other = 1\n"
 HOUR = 3600.0  # s
+
+
+@pytest.fixture(autouse=True)
+def own_progress_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Keep what these tests submit out of the progress file of this clone."""
+    monkeypatch.setattr(command, "FILE", tmp_path / ".progress.json")
 
 
 def notebook(program: str = WORK) -> str:
@@ -161,8 +169,8 @@ def test_why_a_file_of_the_same_time_does_not_count_is_no_order_in_time(tmp_path
     ):
         put(tmp_path, place)
     assert [line for work in collect(tmp_path).works for line in work.left_aside] == [
-        f"anna: {FIRST} is as new as {NAME}.ipynb, and a notebook counts first",
-        f"bert: {NAME}-Copy1.py is as new as {FIRST}, and that name counts first",
+        f"anna: {FIRST} is as new as {NAME}.ipynb, and a notebook counts first; their programs differ",
+        f"bert: {NAME}-Copy1.py is as new as {FIRST}, and that name counts first; their programs differ",
     ]
 
 
@@ -201,6 +209,21 @@ def test_check_and_grade_choose_the_same_file(
         assert [one[: len(line)] for one in left_aside] == ([line] if line else [])
 
 
+def test_the_exercise_of_the_course_is_found_from_any_folder_of_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(own_work_module, "WORK", tmp_path)
+    put(tmp_path, f"exercises/{NAME}/{NAME}.ipynb", "chapters/programs/walk.py")
+    for place in ("chapters", "chapters/programs"):
+        monkeypatch.chdir(tmp_path / place)
+        path, _ = own_work(NAME, None)
+        assert path.resolve() == tmp_path / f"exercises/{NAME}/{NAME}.ipynb"
+    with pytest.raises(UnusableSubmission, match=r"name your file: \./course check walk_to FILE"):
+        own_work("walk_to", None)
+    with pytest.raises(UnusableSubmission, match=r"name your file: \./course submit walk_to --file FILE"):
+        command.submit(["walk_to"])
+
+
 def test_check_finds_work_in_a_folder_below(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     put(tmp_path, f"work/{SECOND}")
@@ -229,6 +252,7 @@ def test_a_self_check_says_whether_what_was_checked_is_saved(
     assert said in after
     assert (said in before) == (saved != WORK)  # nobody overlooks a warning
     assert "hidden checks add" in printed
+    assert "in other situations" in " ".join(printed.split())
 
 
 def test_submit_writes_what_a_grader_takes_and_says_what_it_holds(
@@ -301,3 +325,138 @@ def test_submit_keeps_a_program_that_runs_when_python_cannot_run_the_new_one(
     put(tmp_path, (f"{NAME}.ipynb", notebook(OTHER)))
     command.submit([NAME])
     assert f"another program, fingerprint {fingerprint}: 7 of 7" in " ".join(capsys.readouterr().out.split())
+
+
+def printed_by(capsys: pytest.CaptureFixture) -> str:
+    return " ".join(capsys.readouterr().out.split())
+
+
+def fingerprint(text: str) -> str:
+    return Submission(NAME, "", {FIRST: text}).fingerprint
+
+
+def test_one_file_of_an_exercise_is_handed_in_and_the_replaced_one_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    work, handed_in = tmp_path / "exercises" / NAME, tmp_path / "hand_in"
+    put(work, f"{NAME}.ipynb")
+    command.submit([NAME])
+    put(work, f"{NAME}.ipynb", (FIRST, OTHER))
+    command.submit([NAME])
+    said = printed_by(capsys)
+    assert f"{NAME}.ipynb is older than {FIRST}; their programs differ" in said
+    assert f"it replaces {NAME}.ipynb: another program, fingerprint {fingerprint(WORK)}" in said
+    assert [path.name for path in handed_in.iterdir()] == [FIRST]
+
+    put(work, (FIRST, OTHER), (f"{NAME}.ipynb", notebook(OTHER)))
+    command.submit([NAME])
+    assert f"it replaces {FIRST}: the same program" in printed_by(capsys)
+    assert [path.name for path in handed_in.iterdir()] == [f"{NAME}.ipynb"]
+
+
+def test_submit_removes_only_what_it_wrote(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    put(tmp_path / "exercises" / NAME, f"{NAME}.ipynb")
+    own = tmp_path / "hand_in" / FIRST
+    put(own.parent, (FIRST, OTHER), "notes.txt")
+    command.submit([NAME])
+    said = printed_by(capsys)
+    assert f"{FIRST} stays: submit did not write it" in said
+    assert f"{FIRST} unless it is what you mean to hand in; then hand in" in said
+    assert own.read_text() == OTHER
+    assert (own.parent / "notes.txt").exists()
+
+    own.unlink()
+    put(tmp_path / "exercises" / NAME, f"{NAME}.ipynb", (FIRST, OTHER))
+    command.submit([NAME])
+    own.write_text("edited = 1\n")  # after it was written
+    put(tmp_path / "exercises" / NAME, FIRST, f"{NAME}.ipynb")
+    command.submit([NAME])
+    assert own.read_text() == "edited = 1\n"
+    with pytest.raises(typer.BadParameter, match="your own"):
+        command.submit([NAME], out=tmp_path / "exercises" / NAME)
+
+
+def test_a_zip_of_several_files_and_a_notebook_replace_one_another(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    names = ("GetBatteryStatus.srv", "NavigateToPose.action")
+    before = Submission("interfaces", "", dict.fromkeys(names, WORK)).fingerprint
+    put(tmp_path / "exercises/interfaces", *names)
+    command.submit(["interfaces"])
+    cells = [new_code_cell(f"%%writefile {name}\n{OTHER}") for name in names]
+    put(
+        tmp_path / "exercises/interfaces",
+        names[0],
+        names[1],
+        ("interfaces.ipynb", writes(new_notebook(cells=cells))),
+    )
+    command.submit(["interfaces"])
+    assert f"it replaces interfaces.zip: another program, fingerprint {before}" in printed_by(capsys)
+    assert [path.name for path in (tmp_path / "hand_in").iterdir()] == ["interfaces.ipynb"]
+
+
+def test_submit_says_that_nothing_is_filled_in_and_keeps_earlier_work(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    starter = (f"{NAME}.ipynb", STARTER.read_text())
+    put(tmp_path, starter)
+    command.submit([NAME])
+    said = printed_by(capsys)
+    assert f"{NAME}.ipynb is the starter as it was given out, which gets no points" in said
+    assert f"type again: ./course submit {NAME}" in said
+    assert "hand in what is in" not in said
+    handed_in = tmp_path / "hand_in" / f"{NAME}.ipynb"
+    assert "YOUR CODE HERE" in handed_in.read_text()
+
+    put(tmp_path, f"{NAME}.ipynb")
+    command.submit([NAME])
+    assert "starter" not in printed_by(capsys)
+    put(tmp_path, starter)
+    with pytest.raises(typer.Exit):
+        command.submit([NAME])
+    assert f"is not replaced: it keeps fingerprint {fingerprint(WORK)}" in printed_by(capsys)
+    assert read_submission(handed_in, NAME).sources == {FIRST: WORK}
+
+
+def test_submit_says_that_unsaved_edits_are_missing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    put(tmp_path, f"{NAME}.ipynb")
+    command.submit([NAME])
+    assert "(later edits are not in it: save them with Ctrl+S, and submit again)" in printed_by(capsys)
+
+
+@pytest.mark.parametrize(("saved_in_time", "warns"), [(True, False), (False, True)])
+def test_in_a_notebook_a_self_check_judges_the_saved_notebook_after_it_had_it_saved(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture,
+    saved_in_time: bool,
+    warns: bool,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    put(tmp_path, FIRST, (f"{NAME}.ipynb", notebook(OTHER)))
+
+    def save_later() -> None:
+        if saved_in_time:
+            Timer(0.3, lambda: put(tmp_path, FIRST, f"{NAME}.ipynb")).start()
+
+    monkeypatch.setattr("rich.console._is_jupyter", lambda: True)
+    monkeypatch.setattr(module, "SAVE_TIMEOUT", 5.0 if saved_in_time else 0.3)
+    monkeypatch.setattr(module, "save_notebook", save_later)
+
+    def check_with_progress(*_: object, **__: object) -> Grade:
+        print("the verdicts")
+        return Grade(NAME, "me", "none", [], program=fingerprint(WORK))
+
+    monkeypatch.setattr(module, "check_with_progress", check_with_progress)
+    module.self_check(NAME)
+    before, _ = capsys.readouterr().out.split("the verdicts")
+    assert ("saved with another program" in before) == warns

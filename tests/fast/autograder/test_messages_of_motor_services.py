@@ -129,3 +129,13 @@ def test_a_refusal_with_success_true_is_distinguished_from_no_refusal(
     off = switch("off", False, 4.0, message=message)
     run = run_of(*truth(motors=motors, mode=RobotState.WALKING), walk, *off)
     assert failure_of(MOTORS.refuses_power_off.require, run.call("off")).help.startswith(next_step)
+
+
+def test_a_late_response_is_named_by_its_data_and_its_number() -> None:
+    late = [
+        asked("off", "enable_motors", t=6.0, request=SetBool.Request(data=False)),
+        answered("off", t=11.5, response=SetBool.Response(success=True)),
+    ]
+    run = run_of(*truth(), *switch("on", True, 4.0), *late)
+    failure = failure_of(MOTORS.power_in_time.require, run.call("off"))
+    assert failure.expected.startswith("a response to enable_motors (data: false), request 2 of 2, within")

@@ -22,7 +22,7 @@ from records import PEERS, SPINNING, asked, failure_of, given_up, run_of, stack
         ),
         (
             ('"/x/rclpy/client.py", line 5 in call', '"/tmp/work/status.py", line 30 in on_request'),
-            "It was blocked in line 30 of status.py, in on_request(), in a call of call().",
+            "It was blocked in line 30 of status.py, in on_request(), which called call().",
         ),
         (
             ('"/tmp/work/status.py", line 44 in main', '"/tmp/work/status.py", line 60 in <module>'),

@@ -49,6 +49,7 @@ def test_what_is_not_answered_is_named():
 
 def test_no_output_and_a_wrong_format_are_distinguished():
     assert "Nothing was printed" in verdicts()["answers_everything"].help
+    assert "ANSWERS has no entry for situation 3" in verdicts()["situation_3"].help
     told = verdicts("1) I say: topic, because of a")["situation_1"]
     assert "is not in the right form" in told.help
 
@@ -73,14 +74,27 @@ def test_a_number_of_thousands_of_digits_is_not_read_as_a_situation():
     assert all(verdict.status == "passed" for verdict in seen.values())
 
 
+def run_with_status_1(*lines):
+    """Return the run of a program that prints these lines on stderr."""
+    printed = [ev.NodeOutput(t=2.0, stream="stderr", text=line) for line in lines]
+    begin = [ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0)]
+    end = [ev.NodeExited(t=3.0, returncode=1), ev.ScenarioEnded(t=3.1)]
+    return Transcript.from_events("print_answers", {}, [*begin, *printed, *end])
+
+
+def test_a_syntax_error_is_reported_once_and_the_situations_are_not_run():
+    run = run_with_status_1('  File "/tmp/work/patterns.py", line 5', "SyntaxError: '{' was never closed")
+    first, *situations = [judge(check, [run]) for check in CHECKS]
+    assert first.status == "failed"
+    assert first.observed.endswith("SyntaxError: '{' was never closed")
+    assert {verdict.status for verdict in situations} == {"not run"}
+    assert {verdict.help for verdict in situations} == {f"Needs a check that did not pass: “{first.title}”."}
+
+
 def test_a_missing_comma_is_named_and_the_log_shows_the_students_own_file():
     traceback = ["Traceback (most recent call last):", '  File "/tmp/work/patterns.py", line 9, in <module>']
     traceback += ["    main()", "ValueError: too many values to unpack (expected 2)"]
-    printed = [ev.NodeOutput(t=2.0, stream="stderr", text=line) for line in traceback]
-    begin = [ev.NodeStarted(t=0.0), ev.NodeReady(t=1.0, waited=1.0)]
-    end = [ev.NodeExited(t=3.0, returncode=1), ev.ScenarioEnded(t=3.1)]
-    run = Transcript.from_events("print_answers", {}, [*begin, *printed, *end])
-    verdict = judge(CHECKS[0], [run])
+    verdict = judge(CHECKS[0], [run_with_status_1(*traceback)])
     assert "Look for a missing comma" in verdict.help
     assert '  File "patterns.py", line 9, in <module>' in verdict.log
     assert "/tmp/work" not in verdict.log

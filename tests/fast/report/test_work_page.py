@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import io
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +30,7 @@ PROGRAM = "import rclpy  # </pre><script>document.title = 'run'</script>\n"
 LOADED = re.compile(r"""(?:src|srcset|href)=["'](?!#|data:)|url\(|@import""")
 
 
-def page_of(folder: Path, run: Transcript | None) -> str:
+def page_of(folder: Path, run: Transcript | None, before_film: Callable[[], None] = lambda: None) -> str:
     """The page of a program that was judged on this run of a walk."""
     recorder = Recorder(exercise(), for_students=True)
     verdicts = [judged(one, run or walk()) for one in (accepts, stays_up)]
@@ -37,7 +38,7 @@ def page_of(folder: Path, run: Transcript | None) -> str:
         recorder.add(verdict, [run])
     grade = Grade("walk_to", "you", "namespaces", verdicts, seed=4, program="3f2a91c06b1d")
     page = folder / "walk_to.html"
-    write_work_page(page, Submission("walk_to", "you", {"walk_to.py": PROGRAM}), grade, recorder)
+    write_work_page(page, Submission("walk_to", "you", {"walk_to.py": PROGRAM}), grade, recorder, before_film)
     return page.read_text(encoding="utf-8")
 
 
@@ -67,6 +68,13 @@ def test_a_long_run_is_played_faster(tmp_path: Path, monkeypatch: pytest.MonkeyP
     html = page_of(tmp_path, walk(postures=simulated()[0]))
     assert "3 times as fast" in html
     assert film_in(html).n_frames == pytest.approx(2.0 / 3 * film_module.FRAME_RATE, abs=2)
+
+
+@pytest.mark.parametrize(("moves", "announced"), [(True, 1), (False, 0)])
+def test_a_film_is_announced_only_if_one_is_made(tmp_path: Path, moves: bool, announced: int) -> None:
+    told: list[None] = []
+    page_of(tmp_path, walk(postures=simulated()[0] if moves else ()), lambda: told.append(None))
+    assert len(told) == announced
 
 
 @pytest.mark.parametrize("seconds", [0.0, FALL])

@@ -16,8 +16,9 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
-from course_cli.app import load
+from course_cli.app import app, load
 
 COURSE = Path(sys.executable).with_name("course")
 TIMEOUT = 60.0  # s, for a busy machine
@@ -140,3 +141,15 @@ def read_until(terminal: int, words: str) -> str:
         assert select.select([terminal], [], [], max(0.0, deadline - time.monotonic()))[0], printed
         printed += os.read(terminal, 4096).decode(errors="replace")
     return printed
+
+
+def test_the_help_shows_no_type_behind_a_flag() -> None:
+    for name, flag in (("check", "--record"), ("replay", "--text"), ("grade", "--resume")):
+        shown = CliRunner().invoke(app(name), [name, "--help"]).output
+        assert flag in shown
+        assert "bool" not in shown
+
+
+def test_a_misspelled_exercise_gets_a_suggestion_and_any_other_name_the_list() -> None:
+    assert "there is no exercise 'paterns'; did you mean patterns?" in course("check", "paterns").stdout
+    assert "there are arm_architecture, " in course("check", "zzz").stdout

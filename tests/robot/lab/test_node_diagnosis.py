@@ -81,12 +81,12 @@ def run(
             "future = self.create_client(Trigger, 'get_status').call_async(request)\n"
             "rclpy.spin_until_future_complete(self, future)\nreturn response",
             "It was blocked in line 19 of status.py (`rclpy.spin_until_future_complete(self, future)`), in "
-            "on_request(), in a call of spin_until_future_complete().",
+            "on_request(), which called spin_until_future_complete().",
         ),
         (
             "self.create_client(Trigger, 'get_status').call(request)\nreturn response",
             "It was blocked in line 18 of status.py (`self.create_client(Trigger, 'get_status').call(request)`), in "
-            "on_request(), in a call of call().",
+            "on_request(), which called call().",
         ),
         (
             "response.message = self.state.mode\nreturn response",

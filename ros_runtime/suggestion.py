@@ -1,0 +1,25 @@
+"""Suggests the known name that a misspelled one probably stands for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+DIFFERENT_NAMESPACE = 0.8  # the least similarity (0 to 1) of two full names whose namespaces differ
+
+
+def suggestion(name: str, known: Iterable[str], otherwise: str) -> str:
+    """Return a question that suggests a known name; `otherwise` if no name is similar.
+
+    A similar name has the same ending (/robot/odom for /odom) or differs in few letters: first those in the same
+    namespace, whose own common letters do not count, then others.
+    """
+    names = sorted(known)
+    namespace, _, word = name.rpartition("/")
+    beside = {last: each for each in names for space, _, last in [each.rpartition("/")] if space == namespace}
+    alike = (
+        [each for each in names if each.endswith(f"/{word}")]
+        or [beside[last] for last in get_close_matches(word, beside, n=2)]
+        or get_close_matches(name, names, n=2, cutoff=DIFFERENT_NAMESPACE)
+    )
+    return f"did you mean {' or '.join(alike)}?" if alike else otherwise
