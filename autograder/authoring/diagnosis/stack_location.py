@@ -38,8 +38,9 @@ def where_it_waited(run: Record, *, in_main: bool = False) -> Place | None:
     threads = "\n".join(stack.lines).split("(most recent call first):")[1:]
     if in_main:
         threads.reverse()  # Python lists the main thread last
-    for place in filter(None, map(_innermost, threads)):
-        if in_main or place.function not in _SPINNING:
+    for thread in threads:
+        place = _innermost(thread)
+        if place and (in_main or not _spins(place, thread)):
             return place
     return None
 
@@ -53,6 +54,12 @@ def why_nobody_serves(run: Record) -> str | None:
     if any(function.startswith("spin") for line in stack.lines for *_, function in _FRAME.findall(line)):
         return None
     return f"No thread runs the node's callbacks: it was in {main}, and not in rclpy.spin(node)."
+
+
+def _spins(place: Place, thread: str) -> bool:
+    """Whether a thread was in main(), or in another function that spins, and not in a callback of rclpy."""
+    callers = thread.partition(f"line {place.line} in {place.function}")[2]
+    return place.function in _SPINNING or (place.calls.startswith("spin") and "/rclpy/" not in callers)
 
 
 def _innermost(thread: str) -> Place | None:

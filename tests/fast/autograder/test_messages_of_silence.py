@@ -28,6 +28,18 @@ from records import PEERS, SPINNING, asked, failure_of, given_up, run_of, stack
             ('"/tmp/work/status.py", line 44 in main', '"/tmp/work/status.py", line 60 in <module>'),
             "it was in line 44 of status.py, in main(), and not in rclpy.spin(node).",
         ),
+        (
+            (
+                '"/x/rclpy/executors.py", line 5 in spin_until_future_complete',
+                '"/tmp/work/status.py", line 31 in on_request',
+                '"/x/rclpy/executors.py", line 9 in spin',
+            ),
+            "It was blocked in line 31 of status.py, in on_request(), which called spin_until_future_complete().",
+        ),
+        (
+            ('"/x/rclpy/__init__.py", line 5 in spin', '"/tmp/work/status.py", line 50 in run'),
+            "a callback awaits something that never completes",
+        ),
         (SPINNING, "a callback awaits something that never completes"),
     ],
 )
