@@ -35,13 +35,20 @@ def announce_interrupts(shell: Any) -> None:
         lines = [
             f"{_place(shell, frame)}: {frame.line}"
             for frame in traceback.extract_tb(trace)
-            if not frame.filename.startswith(OF_OTHERS)
+            if _is_own(shell, frame.filename)
         ]
         shown = [*lines, f"{kind.__name__}: interrupted"]
         shell._showtraceback(kind, interrupt, shown)
         return shown
 
     shell.set_custom_exc((KeyboardInterrupt,), show)
+
+
+def _is_own(shell: Any, file: str) -> bool:
+    """Whether a line is in a cell or in a file of the student; a compiled library has a relative name."""
+    return bool(shell.compile.format_code_name(file)) or (
+        file.startswith("/") and not file.startswith(OF_OTHERS)
+    )
 
 
 def _place(shell: Any, frame: traceback.FrameSummary) -> str:

@@ -29,7 +29,7 @@ SPIN_TIME = 0.5  # s, as in ros2cli
 # repeats a lost announcement after 3 s; beside other nodes 3 s, in which a new node announces itself 30 times.
 MISSING_FACTOR = 10
 MISSING_BESIDE_OTHERS_FACTOR = 6
-NOTICE_AFTER = 0.3  # s without the wanted entity, after which a line names it
+NOTICE_AFTER = 0.5  # s without the wanted entity, after which a line names it
 DISCOVERY_LIMIT_FACTOR = 16  # multiple of the spin time; then discovery ends although the graph changes
 QUERY_PERIOD = 0.02  # s between two queries of the graph, because rclpy does not report its changes
 ROSOUT = "/rosout"  # a topic that every node publishes

@@ -122,13 +122,14 @@ def test_stop_everything_leaves_no_process_and_can_start_again(kernel: Kernel) -
 def test_interrupting_a_cell_harms_neither_robot_nor_node(own_kernel: Kernel) -> None:
     own_kernel.run("lab.start_robot(); node = lab.run_node('adder.py')")
     before = own_kernel.children()
-    own_kernel.client.execute("print('waiting', flush=True)\nlab.wait_until(lambda: False, timeout=60)")
+    waiting = "lab.wait_until(lambda: False, 60, print('waiting', flush=True) or 'never')"
+    own_kernel.client.execute(waiting)
     _await_output(own_kernel, "waiting")
     own_kernel.manager.interrupt_kernel()
     reply = own_kernel.client.get_shell_msg(timeout=30)["content"]
     assert reply["ename"] == "KeyboardInterrupt"
     where, what = reply["traceback"]
-    assert re.fullmatch(r"Cell In\[\d+\], line 2: lab.wait_until\(lambda: False, timeout=60\)", where)
+    assert re.fullmatch(rf"Cell In\[\d+\], line 1: {re.escape(waiting)}", where)
     assert what == "KeyboardInterrupt: interrupted"
     assert own_kernel.run("print(node.is_running, lab.mode())") == "True STANDING\n"
     assert own_kernel.children() == before
