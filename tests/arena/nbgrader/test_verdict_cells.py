@@ -35,7 +35,7 @@ def test_a_verdict_in_a_notebook_is_plain_text_in_colour_that_wraps_in_its_colum
     outputs = notebook.cells[0].outputs
     assert {output.output_type for output in outputs} == {"stream"}  # JupyterLab shows those as one block
     text = "".join(output.text for output in outputs)
-    assert "\x1b[31m✗" in text
+    assert "\x1b[1;31m✗" in text
     *lines, width = re.sub(r"\x1b\[[0-9;]*m", "", text).splitlines()
     assert max(map(len, lines)) <= int(width)
     column = lines[3].index("do this")
