@@ -10,17 +10,18 @@ from rich.text import Text
 
 from autograder.classroom.audit.run import AuditedRun, unproved_checks
 from autograder.engine.exercise import Exercise
+from autograder.report.console import BAD, GOOD, OTHER
 from autograder.report.table import MARKS
 
 KILL = ("✗", "bold green")  # a check failed that must fail, by the submission's header
-CONSEQUENCE = ("✗", "cyan")  # a check failed that may fail, by the submission's header
+CONSEQUENCE = ("✗", OTHER)  # a check failed that may fail, by the submission's header
 SURPRISE = "bold white on red"  # the verdict is not as the header says
 
 
 def print_progress(console: Console, run: AuditedRun, *, earlier: bool = False) -> None:
     """Print one finished run, with each difference from the expected verdict; `earlier`: it is reused from a record."""
     surprises = run.surprises()
-    mark, colour = ("✗", "red") if surprises else ("✓", "green")
+    mark, colour = ("✗", BAD) if surprises else ("✓", GOOD)
     score = run.grade.score if run.grade.score is not None else "not graded"
     points = f"{score}/{run.grade.max_score}  " if run.grade.max_score else ""  # none on another robot
     facts = f"{points}{run.seconds:.0f} s{'  (reused)' if earlier else ''}"

@@ -17,6 +17,7 @@ from autograder.classroom.batch.version import checks_version
 from autograder.classroom.class_grading.class_files import ClassFiles
 from autograder.engine.exercise import exercises_folder
 from autograder.recording.kept import FOLDER as RECORDINGS
+from autograder.report.console import BAD, NOTICE, OTHER
 from autograder.report.table import class_table
 
 
@@ -46,7 +47,7 @@ def print_changed_checks(console: Console, before: BatchRecord, works: Sequence[
         console.print(
             f"the checks or the engine have changed, so these are graded again: {', '.join(sorted(changed))}; "
             "--exercise NAME grades only another exercise, and keeps these grades",
-            style="yellow",
+            style=NOTICE,
             markup=False,
         )
 
@@ -55,7 +56,7 @@ def print_problems(console: Console, files: ClassFiles) -> bool:
     """Print the grades that are not in the gradebook; return whether all grades are in it."""
     problems = files.problems()
     for line in problems:
-        console.print(f"not in the gradebook: {line}", style="red", markup=False)
+        console.print(f"not in the gradebook: {line}", style=BAD, markup=False)
     return not problems
 
 
@@ -67,7 +68,7 @@ def print_summary(console: Console, files: ClassFiles, out: Path, page: Path) ->
         console.print(
             f"{to_mark} to be marked by hand, in formgrader; then run this command again with --resume to write the "
             f"points to {GRADES}",
-            style="cyan",
+            style=OTHER,
         )
     for line in files.deadline_notes:
         console.print(line, style="dim", markup=False, soft_wrap=True)
@@ -92,7 +93,7 @@ def print_recordings(console: Console, out: Path, results: Sequence[Graded]) -> 
         console.print(
             f"{cached} grades are from an earlier run and have no new recording; to record them, grade again without "
             "--resume, with the --seed in batch.json",
-            style="yellow",
+            style=NOTICE,
         )
 
 
@@ -105,9 +106,9 @@ def print_ungraded(console: Console, collection: Collection, results: Iterable[G
     """Print the files and folders without a grade; return the number of submissions that the grader failed to judge."""
     results = list(results)
     for line in left_aside(collection, results):
-        console.print(f"left aside: {line}", style="yellow", markup=False)
+        console.print(f"left aside: {line}", style=NOTICE, markup=False)
     for line in collection.refused:
-        console.print(f"not graded: {line}", style="red", markup=False)
+        console.print(f"not graded: {line}", style=BAD, markup=False)
     not_graded = sum(result.grade.status == "not graded" for result in results)
     if not_graded:
         console.print(

@@ -27,6 +27,7 @@ from autograder.engine.path_exposure import require_hidden
 from autograder.engine.verdict import Grade
 from autograder.isolation.availability import Isolation, available_isolation
 from autograder.recording.kept import FOLDER as RECORDINGS
+from autograder.report.console import NOTICE
 from ros_runtime.project import PROJECT
 
 
@@ -116,12 +117,12 @@ def _print_isolation(console: Console, isolation: Isolation, cluster: Cluster | 
     if cluster:
         console.print(f"{cluster.size} workers, isolation: {isolation.label}", style="dim")
         for line in cluster.left_out:
-            console.print(line, style="yellow", markup=False)
+            console.print(line, style=NOTICE, markup=False)
     if not isolation.trusted:
         console.print(
             f"No isolation: {isolation.reason}. Only visible checks are run, and grades are marked untrusted; grade "
             "only submissions that you trust.",
-            style="yellow",
+            style=NOTICE,
             markup=False,
         )
 

@@ -18,6 +18,7 @@ from autograder.classroom.dates import read_deadlines
 from autograder.engine.exercise import UnknownExercise, all_names
 from autograder.engine.hand_in import work_in
 from autograder.engine.submission import UnusableSubmission, read_submission
+from autograder.report.console import BAD, NOTICE
 from course_cli.options import CourseOption, DatesOption
 from ros_runtime.course_error import COMMAND_FAILED, CommandFailed, CourseError
 
@@ -73,18 +74,18 @@ def collect(
     except OSError as error:
         raise CommandFailed(f"{out} cannot be written: {error}") from error
     for line in [*reading.unknown, *choice.left_aside]:
-        console.print(f"left aside: {line}", style="yellow", markup=False)
+        console.print(f"left aside: {line}", style=NOTICE, markup=False)
     if without := {one.student for one in reading.files} - {student for student, _ in choice.works}:
         console.print(
             f"no submission from: {', '.join(sorted(without))}"
             + ("" if exercise else "; --exercise NAME accepts a file of any name"),
-            style="yellow",
+            style=NOTICE,
             markup=False,
         )
     _print_summary(console, reading, placed, out)
     times = {key: time for key, time in choice.timestamps.items() if key not in placed.unchanged}
     for line in deadlines.lateness(times) if deadlines else ():
-        console.print(line, style="yellow", markup=False, soft_wrap=True)
+        console.print(line, style=NOTICE, markup=False, soft_wrap=True)
     raise typer.Exit(COMMAND_FAILED if reading.refused or placed.refused else 0)
 
 
@@ -97,7 +98,7 @@ def _require_usable(exercise: str, assignment: str) -> None:
 
 def _print_summary(console: Console, reading: Reading, placed: Placed, out: Path) -> None:
     for line in [*reading.refused, *placed.refused]:
-        console.print(f"refused: {line}", style="red", markup=False)
+        console.print(f"refused: {line}", style=BAD, markup=False)
     late = sorted({one.student for one in reading.files if one.late})
     if late:
         console.print(f"late, according to the platform: {', '.join(late)}", markup=False)

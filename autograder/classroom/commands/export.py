@@ -19,6 +19,7 @@ from autograder.classroom.export.published import Options, UnusableBatch
 from autograder.classroom.pages.history import FILE as HISTORY
 from autograder.classroom.pages.history import HIDDEN, history_text, read_history, with_day
 from autograder.classroom.pages.pages import page_to_send
+from autograder.report.console import BAD, NOTICE
 from ros_runtime.course_error import COMMAND_FAILED, CommandFailed
 
 Format = Enum("Format", {name: name for name in FORMATS}, type=str)  # type: ignore[misc]
@@ -114,9 +115,9 @@ def export(
 def _print_summary(console: Console, made: Export, folder: Path) -> None:
     """Print what was written, and name each submission without a score in the export."""
     for note in made.notes:
-        console.print(note, style="yellow", markup=False)
+        console.print(note, style=NOTICE, markup=False)
     for left in made.left_out:
-        console.print(_sentence(left), style="red" if left.has_score else "magenta", markup=False)
+        console.print(_sentence(left), style=BAD if left.has_score else NOTICE, markup=False)
     files = "1 file" if len(made.files) == 1 else f"{len(made.files)} files"
     console.print(f"{files} in {folder}", markup=False, soft_wrap=True)
 

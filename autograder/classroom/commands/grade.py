@@ -14,6 +14,7 @@ from autograder.classroom.batch.shards import Shard
 from autograder.classroom.class_grading.once import grade_once
 from autograder.classroom.class_grading.watching import watch_and_grade
 from autograder.classroom.dates import read_deadlines
+from autograder.report.console import NOTICE
 from course_cli.options import CourseOption, DatesOption, JobsOption
 from ros_runtime.course_error import COMMAND_FAILED, CourseError
 
@@ -105,7 +106,7 @@ def grade(
     try:
         status = watch_and_grade(console, request) if request.watch else grade_once(console, request)
     except KeyboardInterrupt:
-        console.print("Interrupted. Add --resume to continue.", style="yellow")
+        console.print("Interrupted. Add --resume to continue.", style=NOTICE)
         raise typer.Exit(COMMAND_FAILED) from None
     raise typer.Exit(status)
 

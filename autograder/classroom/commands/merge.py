@@ -16,6 +16,7 @@ from autograder.classroom.class_grading.class_files import ClassFiles
 from autograder.classroom.class_grading.output import add_all, print_summary
 from autograder.classroom.dates import read_deadlines
 from autograder.recording.kept import FOLDER as RECORDINGS
+from autograder.report.console import BAD
 from course_cli.ending import batch_status
 from course_cli.options import CourseOption, DatesOption
 
@@ -43,7 +44,7 @@ def merge(
         places = ", ".join(map(str, recorded))
         console.print(f"recordings are not merged; they stay in {places}", style="dim", markup=False)
     for line in merged.missing:
-        console.print(f"missing: {line}", style="red", markup=False)
+        console.print(f"missing: {line}", style=BAD, markup=False)
     not_graded = sum(grade.status == "not graded" for grade in files.grades)
     if not_graded:
         console.print(f"{not_graded} not graded; grade their shards again with --resume", style="magenta")

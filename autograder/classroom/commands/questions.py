@@ -20,6 +20,7 @@ from autograder.classroom.questions.question import Sheet, keep, kept
 from autograder.engine.exercise import Exercise, load_exercise
 from autograder.engine.stop import Stop
 from autograder.engine.submission import UnusableSubmission
+from autograder.report.console import NOTICE
 from course_cli.options import CourseOption, JobsOption
 from ros_runtime.course_error import COMMAND_FAILED, CommandFailed, CourseError
 
@@ -60,7 +61,7 @@ def questions(
         raise CourseError(f"{exercise} {reason}")
     found = collect(submitted)
     for line in found.refused:
-        console.print(f"left out: {line}", style="yellow")
+        console.print(f"left out: {line}", style=NOTICE)
     by_student = {work.student: work for work in found.works if work.exercise == exercise}
     missing = [name for name in student or () if name not in by_student]
     if missing or not by_student:

@@ -13,6 +13,7 @@ from autograder.classroom.archives.released_part import part_of
 from autograder.classroom.archives.student_bundle import write_bundle
 from autograder.classroom.nbgrader_bridge.release import bring_up_to_date, out_of_date
 from autograder.engine.exercise import exercises_folder
+from autograder.report.console import BAD
 from course_cli.options import CourseOption
 from ros_runtime.course_error import COMMAND_FAILED, CourseError
 from ros_runtime.project import PROJECT
@@ -61,7 +62,7 @@ def _report_differences(console: Console) -> None:
     solutions = exercises_folder()
     differing = out_of_date(solutions, solutions.parent / "exercises")
     for path in differing:
-        console.print(f"{path.relative_to(solutions.parent)} is out of date", style="red", markup=False)
+        console.print(f"{path.relative_to(solutions.parent)} is out of date", style=BAD, markup=False)
     if differing:
         console.print("Run ./course release --exercises and commit the changes.")
     raise typer.Exit(COMMAND_FAILED if differing else 0)

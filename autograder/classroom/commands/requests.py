@@ -21,6 +21,7 @@ from autograder.classroom.regrade_requests import (
     read_state,
     write_state,
 )
+from autograder.report.console import BAD
 from course_cli.options import CourseOption, JobsOption
 from ros_runtime.course_error import COMMAND_FAILED
 
@@ -51,7 +52,7 @@ def requests(
         state += asked
         write_state(out, state)
         for problem in unusable:
-            console.print(f"left out: {problem}", style="red", markup=False)
+            console.print(f"left out: {problem}", style=BAD, markup=False)
         failed = bool(unusable)
         for index, request in enumerate(state):
             if request.second_run or request.state != "open":
@@ -60,7 +61,7 @@ def requests(
             try:
                 evidence = collect_evidence(request, graded, out, jobs)
             except UnusableRequests as error:
-                console.print(f"request {request.number}: {error}", style="red", markup=False)
+                console.print(f"request {request.number}: {error}", style=BAD, markup=False)
                 failed = True
                 continue
             state[index] = replace(request, second_run=evidence.result)

@@ -17,6 +17,7 @@ from autograder.classroom.audit.generated.mutant import Mutant, mutants_of_exerc
 from autograder.classroom.audit.known_submission import KNOWN
 from autograder.classroom.audit.run import AuditedRun, audit
 from autograder.engine.exercise import Exercise, exercises_folder
+from autograder.report.console import BAD
 from ros_runtime.course_error import CourseError
 
 GOAL_PERCENT = 98  # of the graded mutants should lose points
@@ -112,7 +113,7 @@ def _print_judged(console: Console, judged: Judged, place: str) -> None:
         line = Text.assemble(("✓ ", "green"), f"{judged.mutant.name}  ", (f"{by}, {seconds}", "dim"))
     else:
         why = "full marks" if judged.is_graded else "not graded"
-        line = Text(f"✗ {judged.mutant.name}  {why}, {seconds}\n    {judged.mutant.sentence}", "red")
+        line = Text(f"✗ {judged.mutant.name}  {why}, {seconds}\n    {judged.mutant.sentence}", BAD)
     console.print(line, soft_wrap=True)
 
 
