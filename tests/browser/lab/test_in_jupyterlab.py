@@ -214,6 +214,9 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
     page.keyboard.press("Shift+Enter")
     page.get_by_text("Choose a, b or c.").wait_for()
     outcome = notebook.get_by_text("There is no response.")
+    notebook.get_by_text("prediction_1.reply()").click()
+    page.keyboard.press("Shift+Enter")
+    page.get_by_text("Predict first: ").wait_for()
     expect(outcome).to_be_hidden()
     expect(notebook.get_by_role("heading", name="The next part")).to_be_visible()
 

@@ -7,6 +7,7 @@ const STEADY = 25; // times that a heading was seen at the same place; JupyterLa
 const PERIOD = 200; // ms
 
 const SIDEWAYS = ["ArrowLeft", "ArrowRight"];
+const NO_CHOICE = "Predict first"; // how lab/learning/prediction.py answers a reply() without a choice
 const ARROWS = ["ArrowUp", "ArrowDown", ...SIDEWAYS];
 const COPIED = ["kernelspec", "language_info"]; // metadata
 const NAMELESS = ".widget-radio-box input[type=radio]:not([name])";
@@ -61,7 +62,7 @@ function hideOutcomes(notebook) {
   let hidden = false;
   for (const cell of notebook.widgets) {
     const { outputs, sharedModel, type } = cell.model;
-    if (REPLY.test(sharedModel.source)) hidden = !outputs?.length;
+    if (REPLY.test(sharedModel.source)) hidden = !outputs?.length || JSON.stringify(outputs.toJSON()).includes(NO_CHOICE);
     else if (NEW_TASK.test(sharedModel.source)) hidden = false;
     cell.toggleClass("course-outcome", hidden && type === "markdown");
   }
