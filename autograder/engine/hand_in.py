@@ -239,7 +239,7 @@ def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
         if one.changed <= newest - TIME_TOLERANCE:
             return f"is older than {chosen.path}"
         first = "a notebook" if chosen.is_notebook > one.is_notebook else "that name"
-        return f"is as new as {chosen.path}, and {first} counts first"
+        return f"was saved within a minute of {chosen.path}, and {first} counts first"
 
     def in_words(one: Candidate) -> str:
         both_count = standings[one] == standings[chosen] == 0

@@ -169,8 +169,9 @@ def test_why_a_file_of_the_same_time_does_not_count_is_no_order_in_time(tmp_path
     ):
         put(tmp_path, place)
     assert [line for work in collect(tmp_path).works for line in work.left_aside] == [
-        f"anna: {FIRST} is as new as {NAME}.ipynb, and a notebook counts first; their programs differ",
-        f"bert: {NAME}-Copy1.py is as new as {FIRST}, and that name counts first; their programs differ",
+        f"anna: {FIRST} was saved within a minute of {NAME}.ipynb, and a notebook counts first; their programs differ",
+        f"bert: {NAME}-Copy1.py was saved within a minute of {FIRST}, and that name counts first; "
+        "their programs differ",
     ]
 
 
