@@ -14,6 +14,8 @@ import time
 from importlib.metadata import version
 from itertools import pairwise
 from pathlib import Path
+from urllib.error import URLError
+from urllib.request import urlopen
 
 import pytest
 from typer.testing import CliRunner
@@ -117,6 +119,7 @@ def test_one_ctrl_c_ends_the_lab_and_says_what_has_ended() -> None:
     os.close(writer)
     try:
         printed = read_until(reader, "?token=")
+        await_response(f"http://127.0.0.1:{port}/api")  # it prints the address before it listens there
         lab.send_signal(signal.SIGINT)
         printed += read_until(reader, "as last saved")
         assert lab.wait(TIMEOUT) == 0
@@ -131,6 +134,17 @@ def ephemeral_port() -> int:
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         return int(free.getsockname()[1])
+
+
+def await_response(address: str) -> None:
+    """Wait until a server responds."""
+    deadline = time.monotonic() + TIMEOUT
+    while True:
+        try:
+            return urlopen(address, timeout=TIMEOUT).close()
+        except URLError:
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
 
 
 def read_until(terminal: int, words: str) -> str:
