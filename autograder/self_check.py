@@ -92,11 +92,9 @@ def self_check(exercise: str, file: str | Path | None = None, *, page: str | Pat
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
     if not file:
         program = read_submission(path, exercise).fingerprint
-        warning = saved_work_notice(exercise, program)
         deadline = monotonic() + (SAVE_TIMEOUT if in_notebook else 0.0)
-        while warning.style and monotonic() < deadline:  # the page of JupyterLab saves the notebook meanwhile
-            sleep(SAVE_POLL)
-            warning = saved_work_notice(exercise, program)
+        while (warning := saved_work_notice(exercise, program)).style and monotonic() < deadline:
+            sleep(SAVE_POLL)  # the page of JupyterLab saves the notebook meanwhile
         if warning.style:
             console.print(warning)  # before the verdicts, which may be long
     result = check_and_keep(console, path, exercise, page=Path(page) if page else None)

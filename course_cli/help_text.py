@@ -8,20 +8,16 @@ from typing import Any
 from typer import rich_utils
 from typer.core import TyperArgument, TyperOption
 
+from autograder.report.console import BAD
+
 # Rich's names of the styles that Typer colours in yellow, cyan, dark red or dim blue, which only one background suits.
 BOLD = (
     *("STYLE_OPTION", "STYLE_SWITCH", "STYLE_NEGATIVE_OPTION", "STYLE_NEGATIVE_SWITCH", "STYLE_USAGE"),
     *("STYLE_COMMANDS_TABLE_FIRST_COLUMN", "STYLE_REQUIRED_SHORT", "STYLE_REQUIRED_LONG"),
 )
 PLAIN = (
-    *(
-        "STYLE_TYPES",
-        "STYLE_TYPES_SEPARATOR",
-        "STYLE_HELPTEXT",
-        "STYLE_OPTION_DEFAULT",
-        "STYLE_OPTION_ENVVAR",
-    ),
-    "STYLE_ERRORS_SUGGESTION",
+    *("STYLE_TYPES", "STYLE_TYPES_SEPARATOR", "STYLE_HELPTEXT", "STYLE_ERRORS_SUGGESTION"),
+    *("STYLE_OPTION_DEFAULT", "STYLE_OPTION_ENVVAR"),
 )
 ERRORS = ("STYLE_ERRORS_PANEL_BORDER", "STYLE_ABORTED")
 TYPE_WORDS = {"str": "TEXT", "path": "PATH", "int": "NUMBER", "int range": "NUMBER", "float": "NUMBER"}
@@ -29,7 +25,7 @@ TYPE_WORDS = {"str": "TEXT", "path": "PATH", "int": "NUMBER", "int range": "NUMB
 
 def make_readable() -> None:
     """Give Typer's help styles that can be read on white and on black, and words for the types of options."""
-    for names, style in ((BOLD, "bold"), (PLAIN, ""), (ERRORS, "bold red")):
+    for names, style in ((BOLD, "bold"), (PLAIN, ""), (ERRORS, BAD)):
         for name in names:
             setattr(rich_utils, name, style)
     rich_utils.RICH_HELP = "Try '{command_path} {help_option}' for help."

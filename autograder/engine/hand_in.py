@@ -253,7 +253,7 @@ def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
 
 
 def is_starter(submission: Submission, *notebooks: Path) -> bool:
-    """Return whether nothing is filled in: these are the released files, or those of a notebook's untouched cells."""
+    """Return whether a submission is the starter: as released, or as unchanged cells of a notebook write it."""
     given = [given_in(notebook.read_bytes()) for notebook in notebooks if notebook.is_file()]
     given.append(released(_release(submission.exercise)))
     return any(_same(submission.sources, texts) for texts in given)

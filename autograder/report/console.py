@@ -31,7 +31,7 @@ class LineConsole(Console):
         super().__init__(**{"highlight": False, "width": FILE_WIDTH if is_file else None, **settings})
 
     def print(self, *objects: Any, **settings: Any) -> None:
-        """Print texts as lines of words, and other objects at the console's width."""
+        """Print texts, whose lines are broken between words, and other objects at the console's width."""
         is_text = all(isinstance(each, str | Text) for each in objects)
         if objects and is_text and is_terminal(self.file):
             markup = settings.pop("markup", None)

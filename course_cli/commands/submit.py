@@ -53,7 +53,7 @@ def submit(
     out = out or _default_folder()
     unfinished: list[str] = []
     unchecked: list[str] = []
-    strangers: list[Path] = []
+    foreign: list[Path] = []
     has_failed = False
     for exercise in exercises:
         path, left_aside = own_work(exercise, file, "submit {} --file FILE")
@@ -84,7 +84,7 @@ def submit(
         )
         for old, before in earlier.items():
             if old != target and not was_submitted(old, FILE):
-                strangers.append(old)
+                foreign.append(old)
                 console.print(f"  {old} stays: submit did not write it", style=NOTICE, markup=False)
                 continue
             if old != target:
@@ -99,17 +99,17 @@ def submit(
         elif not flaw:
             unchecked.append(exercise)
             console.print("  This program has not been checked.", style=NOTICE)
-    console.print(_next_step(unfinished, unchecked, strangers, out), markup=False)
+    console.print(_next_step(unfinished, unchecked, foreign, out), markup=False)
     if has_failed:
         raise typer.Exit(COMMAND_FAILED)
 
 
-def _next_step(unfinished: list[str], unchecked: list[str], strangers: list[Path], out: Path) -> str:
+def _next_step(unfinished: list[str], unchecked: list[str], foreign: list[Path], out: Path) -> str:
     """Return what to do, by the exercises with a flaw, those without a check, and the files that submit left there."""
     if unfinished:
         return f"Next: complete the program, save it, and type again: ./course submit {' '.join(unfinished)}"
     first = [f"./course check {exercise}; " for exercise in unchecked]
-    first += [f"remove {path} unless it is what you mean to hand in; " for path in strangers]
+    first += [f"remove {path} unless it is what you mean to hand in; " for path in foreign]
     return f"Next: {'then '.join([*first, ''])}hand in what is in {out}/, unchanged."
 
 

@@ -177,7 +177,7 @@ def _empty_places(file: Path) -> list[int]:
 
 
 def _is_the_starter(file: Path, program: str) -> bool:
-    """Whether the notebook beside a file would write this program with a cell that the student has not changed."""
+    """Whether a program is the starter: what an unchanged cell of the notebook beside its file writes."""
     notebook = file.with_suffix(".ipynb")
     if not notebook.is_file() or not _PLACES.search(program):
         return False
@@ -233,7 +233,7 @@ def _needed(of_robot: Mapping[str, str], of_node: Iterable[str], imported: set[s
 
 
 def _types(ends: Iterable[tuple[str, Iterable[Endpoint]]], nodes: set[str]) -> dict[str, str]:
-    """Return the types of those topics, by full name, that have an end at one of these nodes."""
+    """Return the type of each topic, by full name, on which one of these nodes publishes or subscribes."""
     return {name: end.type for name, each in ends for end in each if end.node in nodes}
 
 

@@ -184,7 +184,7 @@ class _SeenRun:
 
 
 def _words_of(call: Call) -> tuple[str, str]:
-    """Return a request with its service, and its response, in words."""
+    """Describe a request to a service, and its response."""
     told = (call.request, call.response)
     request, answer = (shorten(shown_fields(one, *_simple(one)), LONGEST_TEXT) for one in told)
     return f"{call.service}{request and f' with {request}'}", answer

@@ -29,7 +29,7 @@ HOUR = 3600.0  # s
 
 @pytest.fixture(autouse=True)
 def own_progress_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Keep what these tests submit out of the progress file of this clone."""
+    """Keep the submissions of these tests out of this clone's progress file."""
     monkeypatch.setattr(command, "FILE", tmp_path / ".progress.json")
 
 
