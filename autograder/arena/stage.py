@@ -77,7 +77,7 @@ class Stage(Offering):
         super().__init__(node, log, student, phases, speed_up)
         self._stranger = stranger
         self._robot = Robot(simulator, log) if simulator else None
-        self._conversation = Conversation(log, BoundedReading(log), student.has_exited)
+        self._conversation = Conversation(log, BoundedReading(log), student.has_exited, student.stacks)
         self._services: list[ServiceClient] = []
         self._actions: list[ActionClient] = []
         self._parameters: list[Parameters] = []
@@ -144,7 +144,6 @@ class Stage(Offering):
 
     def interrupt_node(self) -> None:
         """Send SIGINT, as Ctrl-C does, and wait for the process to end."""
-        self._student.record_where_it_waits()
         self._log.append(ev.NodeSignalled(signal="SIGINT"))
         self._student.interrupt()
         self._student.wait(CLEAN_EXIT_TIMEOUT)

@@ -50,11 +50,13 @@ class Student:
         """Return whether the program has ended, with its exit and all its output in the log."""
         return self._log.count(ev.NodeExited) > 0
 
-    def record_where_it_waits(self) -> None:
-        """Record the stacks of a server that has not answered a call; it goes on, and Ctrl-C may end its callback."""
-        if self._process and self._log.count(ev.Unanswered, what="call") and not self.has_exited():
-            self._record_stacks(self._process, self._process.print_stacks, PRINT_TIMEOUT)
-            self._stack = None
+    def stacks(self) -> ev.NodeStack | None:
+        """Return the stacks of the running program, which goes on; None if it has ended or its stacks are recorded."""
+        if self._process is None or self.has_exited() or self._log.count(ev.NodeStack):
+            return None
+        stacks = self._stacks(self._process, self._process.print_stacks, PRINT_TIMEOUT)
+        self._stack = None  # what it prints from now on is its output again
+        return stacks
 
     def interrupt(self) -> None:
         """Send SIGINT, as Ctrl-C does."""
@@ -90,7 +92,7 @@ class Student:
             silent = self._log.count(ev.Unanswered) or self._log.count(ev.NodeSignalled)
             if silent and not self.has_exited() and not self._log.count(ev.NodeStack):
                 # this ends the program
-                self._record_stacks(self._process, self._process.abort, ABORT_TIMEOUT)
+                self._log.append(self._stacks(self._process, self._process.abort, ABORT_TIMEOUT))
             self._process.kill()
 
     @property
@@ -119,12 +121,14 @@ class Student:
             self._process, self._log, self._clock, program.limits, self._spec.private_network
         )
 
-    def _record_stacks(self, process: StudentProcess, print_them: Callable[[], None], timeout: float) -> None:
-        """Record what a program prints within `timeout` (s of real time) after it was told to print its stacks."""
+    def _stacks(
+        self, process: StudentProcess, print_them: Callable[[], None], timeout: float
+    ) -> ev.NodeStack:
+        """Return what a program prints within `timeout` (s of real time) after it was told to print its stacks."""
         self._stack = []
         print_them()
         process.wait(timeout * self._clock.scale)
-        self._log.append(ev.NodeStack(lines=self._stack[:LONGEST_STACK]))
+        return ev.NodeStack(lines=self._stack[:LONGEST_STACK])
 
     def _on_line(self, t: float, stream: str, text: str) -> None:
         if self._stack is not None and stream == "stderr":

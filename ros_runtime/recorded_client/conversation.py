@@ -14,9 +14,13 @@ from rclpy.serialization import deserialize_message
 from rclpy.task import Future
 
 from ros_runtime.record.client_events import TooLarge, Unanswered
+from ros_runtime.record.event import Event
 from ros_runtime.record.event_log import EventLog
 
 DEFAULT_CLIENT = "client"  # the name of the client that cancels a goal, unless another one is given
+LATE_SHARE = (
+    0.8  # of the timeout; then the server's stacks are read, before a sleep as long as the timeout ends
+)
 UNKNOWN_GOAL = "unknown goal"  # for `Reading.admits`: a goal that this client has not sent
 
 
@@ -44,11 +48,13 @@ class Conversation:
         log: records all requests, answers and messages; every wait is a wait for an event in it.
         reading: deserializes received messages and limits them.
         server_is_gone: returns whether the server has ended; if so, waits end early.
+        server_stacks: returns where the server's threads are, for a late answer; None if that is recorded or unknown.
     """
 
     log: EventLog
     reading: Reading = field(default_factory=Reading)
     server_is_gone: Callable[[], bool] = lambda: False
+    server_stacks: Callable[[], Event | None] = lambda: None
     _named: Counter[str] = field(default_factory=Counter)
     _naming: threading.Lock = field(default_factory=threading.Lock)
 
@@ -70,13 +76,24 @@ class Conversation:
     ) -> bool:
         """Wait for an answer; return whether it came. Record Unanswered if it does not come in `timeout` s.
 
-        The wait ends early if the server is gone.
+        The wait ends early if the server is gone. Except for a result, the server's stacks are recorded, too.
         """
         started = time.monotonic()
-        self.log.wait_until(lambda: has_come() or self.server_is_gone(), timeout)
-        if has_come():
+
+        def wait_for(time_until: float) -> bool:
+            self.log.wait_until(
+                lambda: has_come() or self.server_is_gone(), started + time_until - time.monotonic()
+            )
+            return bool(has_come())
+
+        if wait_for(timeout * LATE_SHARE):
+            return True
+        stacks = None if what == "result" else self.server_stacks()
+        if wait_for(timeout):
             return True
         self.log.append(Unanswered(what=what, id=id, waited=time.monotonic() - started))
+        if stacks:
+            self.log.append(stacks)
         return False
 
     def was_too_large(self, what: str, id: str) -> bool:

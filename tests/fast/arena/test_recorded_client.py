@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import random
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -62,9 +63,12 @@ class FakeNode:
     create_client = create_service = create_subscription = _create
 
 
-def service_client(log: ArenaLog) -> tuple[ServiceClient, FakeEndpoint]:
+def service_client(
+    log: ArenaLog, stacks: Callable[[], ev.NodeStack | None] = lambda: None
+) -> tuple[ServiceClient, FakeEndpoint]:
     node: Any = FakeNode()
-    client = ServiceClient(node, "get_status", Trigger, Conversation(log, BoundedReading(log)))
+    conversation = Conversation(log, BoundedReading(log), server_stacks=stacks)
+    client = ServiceClient(node, "get_status", Trigger, conversation)
     return client, node.endpoints[0]
 
 
@@ -95,6 +99,24 @@ def dropped(log: ArenaLog) -> list[tuple[str, int]]:
 
 
 # -- services ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("is_answered", [False, True])
+def test_the_stacks_of_a_late_server_are_read_before_the_timeout_and_kept_if_no_answer_comes(
+    log: ArenaLog, is_answered: bool
+) -> None:
+    unanswered: list[int] = []
+
+    def stacks() -> ev.NodeStack:
+        unanswered.append(log.count(ev.Unanswered))
+        if is_answered:
+            endpoint.futures[0].set_result(Trigger.Response())
+        return ev.NodeStack(lines=["asleep"])
+
+    client, endpoint = service_client(log, stacks)
+    assert client.call(timeout=SOON) == is_answered
+    assert unanswered == [0]
+    assert log.count(ev.NodeStack) == (not is_answered)
 
 
 def test_an_answer_of_readable_size_is_recorded(log: ArenaLog) -> None:
