@@ -72,7 +72,7 @@ def _cancels(random: Random) -> list[Part]:
 def _failures(random: Random) -> list[Part]:
     unresponsive = {"stages": {"approaching": 60.0}, "silent_after": 0.6, "stops": (None, 0.0)}
     return [
-        fetch("no answer", children=[{"accepted": None}]),
+        fetch("no answer", children=[{}, {"accepted": None}]),
         fetch("deaf", children=[{}, unresponsive]),
         fetch("canceled by another", children=[{}, {}, {"ends": "CANCELED"}]),
     ]
@@ -227,7 +227,8 @@ remembers_a_cancel = in_cancels(
     see="07_cancel_and_preempt#late-why",
 )
 gives_up_without_an_answer = in_failures(
-    model.of(("no answer",), model.gives_up_the_unanswered), needs=checks.says_why_a_child_failed
+    model.of(("no answer",), model.gives_up_the_unanswered),
+    needs=[checks.says_why_a_child_failed, checks.cancels_a_late_child],
 )
 survives_a_dying_server = of_servers(
     model.gives_up_the_silent,
