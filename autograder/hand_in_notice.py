@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from rich.text import Text
-
 from autograder.engine.hand_in import work_in
 from autograder.engine.submission import UnusableSubmission, read_submission
+from autograder.engine.verdict import Grade
 from ros_runtime.project import COURSE
+from ros_runtime.terminal import as_typed
 
 WARNING = "bold black on yellow"  # legible in a light notebook and in a dark one
 _HIDDEN = re.compile(r"Hidden check \d+ \((\d+) points?\)")
@@ -29,27 +29,30 @@ def hidden_checks_notice(exercise: str) -> str:
     )
 
 
-def saved_work_notice(exercise: str, program: str, folder: Path = Path()) -> Text:
-    """Return whether the work that is saved in a folder is the program of this fingerprint, and what to do.
-
-    Only a warning has a style.
-    """
+def saved_work_warning(exercise: str, program: str, folder: Path = Path()) -> str:
+    """Return that the work saved in a folder is not the program of this fingerprint, and what to do; "" if it is."""
     found = work_in(folder, exercise, depth=0)
     if not found:
-        return Text()
+        return ""
     saved = found[0]
     try:
-        is_same = read_submission(saved, exercise).fingerprint == program
+        if read_submission(saved, exercise).fingerprint == program:
+            return ""
     except UnusableSubmission as error:
-        return Text(f"What a grader would take cannot be read: {error}", WARNING)
-    if is_same:
-        advice = (
-            f"{saved.name} is saved with the program that was checked. To hand it in: !course submit {exercise} in a "
-            f"cell, or ./course submit {exercise} in a terminal"
-        )
-        return Text(advice)
-    return Text(
+        return f"What a grader would take cannot be read: {error}"
+    return (
         f"{saved.name}, which a grader would take, is saved with another program than the one checked here. "
-        "Next: save it (Ctrl+S), run its %%writefile cell, and check again.",
-        WARNING,
+        "Next: save it (Ctrl+S), run its %%writefile cell, and check again."
+    )
+
+
+def next_step(grade: Grade) -> str:
+    """Return what to do after a self-check that was graded."""
+    submit = as_typed(f"submit {grade.exercise}")
+    if grade.all_passed:
+        return f"Next: hand it in: {submit}"
+    if not any(verdict.status == "passed" for verdict in grade.checks):
+        return "Next: mend what the first failed check names, and check again."
+    return (
+        f"Next: mend what the first failed check names, and check again; or hand in what you have: {submit}"
     )

@@ -17,10 +17,11 @@ from autograder.authoring.checks import Check
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import Exercise, file_names, load_exercise
 from autograder.engine.grading import GradingOptions, Watcher, grade
+from autograder.engine.starter import is_starter, what_is_to_be_written
 from autograder.engine.submission import Submission, place_of_work, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
 from autograder.engine.verdict import CheckVerdict, Grade
-from autograder.hand_in_notice import hidden_checks_notice, saved_work_notice
+from autograder.hand_in_notice import WARNING, hidden_checks_notice, next_step, saved_work_warning
 from autograder.isolation.availability import available_isolation
 from autograder.lab_hour import share, unshare
 from autograder.recording.kept import Recordings, keep
@@ -29,6 +30,7 @@ from autograder.report.running import RunningLine
 from autograder.report.table import grade_table, print_beginning, print_retry, print_verdict, summary
 from ros_runtime.course_error import CourseError
 from ros_runtime.self_checks import store_check
+from ros_runtime.terminal import as_typed
 from ros_runtime.workarounds.jupyterlab_page import save_notebook
 
 if TYPE_CHECKING:
@@ -93,18 +95,23 @@ def self_check(exercise: str, file: str | Path | None = None, *, page: str | Pat
     if not file:
         program = read_submission(path, exercise).fingerprint
         deadline = monotonic() + (SAVE_TIMEOUT if in_notebook else 0.0)
-        while (warning := saved_work_notice(exercise, program)).style and monotonic() < deadline:
+        while (warning := saved_work_warning(exercise, program)) and monotonic() < deadline:
             sleep(SAVE_POLL)  # the page of JupyterLab saves the notebook meanwhile
-        if warning.style:
-            console.print(warning)  # before the verdicts, which may be long
+        if warning:
+            console.print(warning, style=WARNING, markup=False)  # before the verdicts, which may be long
     result = check_and_keep(console, path, exercise, page=Path(page) if page else None)
-    for line in (
-        Text(hidden_checks_notice(exercise)),
-        Text() if file else saved_work_notice(exercise, result.program),
-    ):
-        if line:
-            console.print(line)
+    print_next_step(console, result, "" if file else saved_work_warning(exercise, result.program))
     return SelfCheck(result)
+
+
+def print_next_step(console: Console, grade: Grade, warning: str = "") -> None:
+    """Print which checks come later, and what to do next; a warning replaces that."""
+    if later := hidden_checks_notice(grade.exercise):
+        console.print(later, markup=False)
+    if warning:
+        console.print(warning, style=WARNING, markup=False)
+    elif grade.status == "graded":
+        console.print(next_step(grade), markup=False)
 
 
 def check_and_keep(console: Console, path: Path, exercise: str, **options: Any) -> Grade:
@@ -143,6 +150,8 @@ def check_with_progress(
 
         loaded = with_robot(robot, loaded)
     submission = read_submission(path, exercise)
+    if is_starter(submission, path.with_name(f"{exercise}.ipynb")):
+        console.print(what_is_to_be_written(submission), style=NOTICE, markup=False)
     recorder = _recorder(loaded) if recordings or page else None
     if robot:
         console.print(EXTRA.format(robot=robot), style="bold", markup=False)
@@ -257,7 +266,7 @@ def _write_page(
 def _keep_recordings(console: Console, folder: Path, recordings: Recordings) -> None:
     keep(folder, recordings)
     console.print(
-        f"{len(recordings)} recordings in {folder}; look at one: ./course replay FILE", markup=False
+        f"{len(recordings)} recordings in {folder}; look at one: {as_typed('replay FILE')}", markup=False
     )
     for name in sorted(recordings):
         console.print(f"  {folder / name}", style="dim", markup=False)

@@ -9,6 +9,7 @@ from autograder.engine.exercise import file_names
 from autograder.engine.hand_in import MOST_FOLDERS, work_in
 from autograder.engine.submission import UnusableSubmission
 from ros_runtime.project import COURSE, WORK
+from ros_runtime.terminal import as_typed
 
 MAX_DEPTH_HERE = 2  # levels of folders to search below the current folder
 
@@ -36,5 +37,5 @@ def own_work(exercise: str, file: Path | None, naming: str = "check {} FILE") ->
     names = ", ".join([f"{exercise}.ipynb", *file_names(exercise)])
     folders = str(file) if file else f"this folder and {in_course}"
     raise UnusableSubmission(
-        f"found none of {names} in {folders}; name your file: ./course {naming.format(exercise)}"
+        f"found none of {names} in {folders}; name your file: {as_typed(naming.format(exercise))}"
     )

@@ -15,6 +15,7 @@ from ros_runtime.project import WORK
 
 FILE = WORK / "exercises" / ".progress.json"  # not in an exercise's folder, because students submit that
 KIND = "checks"
+PROGRAMS = "programs"  # the last self-check of each program, by its fingerprint
 SUBMITTED = "submitted"  # SHA-256 of each file that `course submit` wrote, by its path from here
 
 
@@ -37,12 +38,22 @@ def last_checks(file: Path = FILE) -> dict[str, LastCheck]:
     return checks
 
 
+def last_check_of(program: str, file: Path = FILE) -> LastCheck | None:
+    """Return the last self-check of the program with this fingerprint; None if there is none."""
+    entry = entries_of(file, PROGRAMS).get(program)
+    with contextlib.suppress(TypeError):
+        return LastCheck(**entry) if entry else None
+    return None
+
+
 def store_check(exercise: str, passed: int, total: int, program: str = "", file: Path = FILE) -> None:
     """Store a self-check of one of the course's exercises; does nothing if the file cannot be written."""
     if not (file.parent / exercise).is_dir():  # an exercise of another course
         return
     check = LastCheck(passed, total, datetime.now().isoformat(timespec="seconds"), program)
     _store(file, KIND, exercise, asdict(check))
+    if program:
+        _store(file, PROGRAMS, program, asdict(check))
 
 
 def was_submitted(path: Path, file: Path = FILE) -> bool:

@@ -1,4 +1,4 @@
-"""Tells a person's terminal from files, pipes and the cells of a notebook."""
+"""Tells a person's terminal from files, pipes and the cells of a notebook, where commands are typed differently."""
 
 from __future__ import annotations
 
@@ -6,6 +6,11 @@ import os
 from typing import IO
 
 CELL_VARIABLE = "JPY_PARENT_PID"  # Jupyter sets it for kernels, and so for the commands in their cells
+
+
+def as_typed(command: str) -> str:
+    """Return a command of ./course as it is typed where this program runs: in a terminal, or in a notebook's cell."""
+    return f"{'!' if CELL_VARIABLE in os.environ else './'}course {command}"
 
 
 def is_terminal(stream: IO[str]) -> bool:

@@ -12,20 +12,18 @@ additions that Jupyter, browsers, file managers and cloud drives make for copies
 
 from __future__ import annotations
 
-import json
 import re
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from pathlib import Path, PurePath
 from typing import Protocol
 
-from autograder.engine.exercise import exercises_folder, file_names
-from autograder.engine.notebook import written_by
+from autograder.engine.exercise import file_names
+from autograder.engine.starter import given_in, released, same_texts
 from autograder.engine.submission import (
     MAX_NOTEBOOK_BYTES,
-    Submission,
     UnusableSubmission,
     most_bytes,
     read_bytes,
@@ -211,12 +209,12 @@ def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
     if len(candidates) == 1:
         return candidates[0], []
     exercise = candidates[0].exercise
-    given = [released(_release(exercise)), *(one.given for one in candidates)]
+    given = [released(exercise), *(one.given for one in candidates)]
 
     def standing(one: Candidate) -> int:
         if isinstance(one.sources, UnusableSubmission):
             return 1
-        return 2 if any(_same(one.sources, texts) for texts in given) else 0
+        return 2 if any(same_texts(one.sources, texts) for texts in given) else 0
 
     standings = {one: standing(one) for one in candidates}
     rest = _least(candidates, lambda one: one.copy == ANY_NAME and 2 - one.is_notebook)
@@ -246,52 +244,10 @@ def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
         return f"{one.path} {why(one)}" + ("; their programs differ" if both_count else "")
 
     others = sorted(
-        (one for one in candidates if one is not chosen and not _same(one.sources, chosen.sources)),
+        (one for one in candidates if one is not chosen and not same_texts(one.sources, chosen.sources)),
         key=lambda one: str(one.path),
     )
     return chosen, [in_words(one) for one in others]
-
-
-def is_starter(submission: Submission, *notebooks: Path) -> bool:
-    """Return whether a submission is the starter: as released, or as unchanged cells of a notebook write it."""
-    given = [given_in(notebook.read_bytes()) for notebook in notebooks if notebook.is_file()]
-    given.append(released(_release(submission.exercise)))
-    return any(_same(submission.sources, texts) for texts in given)
-
-
-def _release(exercise: str) -> Path:
-    return exercises_folder().parent / "exercises" / exercise / f"{exercise}.ipynb"
-
-
-def given_in(notebook: bytes) -> dict[str, str]:
-    """Return the files that a notebook's untouched solution cells write, according to nbgrader's checksums."""
-    from nbformat import from_dict
-    from nbgrader.utils import compute_checksum, is_solution
-
-    untouched = []
-    try:
-        for cell in from_dict(json.loads(notebook.decode("utf-8-sig")))["cells"]:
-            cell.source = "".join(cell.source)
-            if is_solution(cell) and cell.metadata.nbgrader.get("checksum") == compute_checksum(cell):
-                untouched.append(cell.source)
-    except Exception:  # metadata can be malformed in many ways; such a notebook does not count as untouched
-        return {}
-    return written_by(untouched).files
-
-
-@lru_cache
-def released(release: Path) -> dict[str, str]:
-    """Return the starter files of the released notebook; empty if there is no release."""
-    return given_in(release.read_bytes()) if release.is_file() else {}
-
-
-def _same(one: object, other: object) -> bool:
-    """Whether two mappings hold the same texts, apart from white space at their ends."""
-    if not isinstance(one, dict) or not isinstance(other, dict):
-        return False
-    return {name: text.strip() for name, text in one.items()} == {
-        name: text.strip() for name, text in other.items()
-    }
 
 
 def _least(candidates: Sequence[Candidate], key: Callable[[Candidate], int]) -> list[Candidate]:

@@ -13,11 +13,11 @@ from autograder.engine.essay import load_essay
 from autograder.engine.exercise import essay_names, exercise_names, scenario_file
 from autograder.engine.submission import UnusableSubmission, read_submission
 from autograder.engine.submission_arenas import SubmissionArenas
-from autograder.hand_in_notice import hidden_checks_notice
 from autograder.report.console import NOTICE, LineConsole
 from course_cli.options import CourseOption, JobsOption
 from course_cli.own_work import own_work
 from ros_runtime.course_error import COMMAND_FAILED, NOT_GRADED
+from ros_runtime.terminal import as_typed
 
 
 def check(
@@ -71,19 +71,19 @@ def check(
         if exercise in exercise_names() and path.exists():
             arenas.open_ahead()
         # The import runs while the arena opens, so that the first verdict comes sooner.
-        from autograder.self_check import check_and_keep
+        from autograder.self_check import check_and_keep, print_next_step
 
         folder = Path("recordings") / exercise if record else None
         result = check_and_keep(
             console, path, exercise, jobs=jobs, arenas=arenas, recordings=folder, page=page, robot=robot
         )
-    if not robot and (later := hidden_checks_notice(exercise)):
-        console.print(later, markup=False)
+    if not robot:
+        print_next_step(console, result)
     if json_file:
         json_file.write_text(json.dumps(result.to_json(), indent=2) + "\n")
     if result.status == "not graded":
         console.print(
-            f"Next: ./course check {exercise} --jobs 1, when the machine is less busy.", markup=False
+            f"Next: {as_typed(f'check {exercise} --jobs 1')}, when the machine is less busy.", markup=False
         )
         raise typer.Exit(NOT_GRADED)
     raise typer.Exit(0 if result.all_passed else COMMAND_FAILED)

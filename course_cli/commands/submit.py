@@ -5,6 +5,8 @@ from __future__ import annotations
 import shutil
 import warnings
 import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -13,7 +15,7 @@ from typing import Annotated
 import typer
 
 from autograder.engine.exercise import essay_names, file_names
-from autograder.engine.hand_in import is_starter
+from autograder.engine.starter import is_starter
 from autograder.engine.submission import Submission, UnusableSubmission, read_submission
 from autograder.hand_in_notice import hidden_checks_notice
 from autograder.report.console import NOTICE, LineConsole
@@ -21,7 +23,8 @@ from course_cli.options import CourseOption
 from course_cli.own_work import own_work
 from ros_runtime.course_error import COMMAND_FAILED
 from ros_runtime.project import WORK
-from ros_runtime.self_checks import FILE, last_checks, store_submitted, was_submitted
+from ros_runtime.self_checks import FILE, last_check_of, store_submitted, was_submitted
+from ros_runtime.terminal import as_typed
 
 
 def submit(
@@ -44,17 +47,14 @@ def submit(
 ) -> None:
     """Write one file for each exercise to hand in, and print what it holds.
 
-    It replaces the file that an earlier `submit` wrote for the exercise. A program that Python cannot run, or a starter
-    in which nothing is filled in, replaces no better program.
+    It replaces the file that an earlier `submit` wrote for the exercise. A program that Python cannot run replaces no
+    better one, and a starter in which nothing is filled in is not handed in.
     """
     console = LineConsole()
     if file and len(exercises) > 1:
         raise typer.BadParameter("--file is the file of one exercise: name that exercise alone")
     out = out or _default_folder()
-    unfinished: list[str] = []
-    unchecked: list[str] = []
-    foreign: list[Path] = []
-    has_failed = False
+    left = _LeftToDo()
     for exercise in exercises:
         path, left_aside = own_work(exercise, file, "submit {} --file FILE")
         if out.resolve() == (path if path.is_dir() else path.parent).resolve():
@@ -62,55 +62,90 @@ def submit(
         submission = read_submission(path, exercise)
         for line in left_aside:
             console.print(f"left aside: {line}", style=NOTICE, markup=False)
-        target = _target(path, exercise, out)
         earlier = _earlier(exercise, out)
         if flaw := _flaw(path, submission):
-            unfinished.append(exercise)
-            console.print(flaw, style=NOTICE, markup=False)
+            left.unfinished.append(exercise)
+            console.print(flaw.sentence, style=NOTICE, markup=False)
             better = {old: work for old, work in earlier.items() if work and not _flaw(old, work)}
             for old, work in better.items():
                 console.print(f"  {old} is not replaced: it keeps {_in_words(work)}", markup=False)
-            has_failed = has_failed or bool(better or _syntax_error(submission))
-            if better:
+            if better or flaw.is_starter:
                 continue
-        _copy(path, exercise, target)
-        console.print(
-            f"{target}: {_contents(submission)}, as saved {_saved(path)} (later edits are not in it: save them with "
-            "Ctrl+S, and submit again)",
-            markup=False,
-        )
-        console.print(
-            f"  fingerprint {submission.fingerprint}: your grade's page shows it again", markup=False
-        )
-        for old, before in earlier.items():
-            if old != target and not was_submitted(old, FILE):
-                foreign.append(old)
-                console.print(f"  {old} stays: submit did not write it", style=NOTICE, markup=False)
-                continue
-            if old != target:
-                old.unlink()
-            if said := _replaced(old, before, target, submission):
-                console.print(f"  it replaces {said}", style=NOTICE, markup=False)
-        store_submitted(target, FILE)
-        if exercise in essay_names():
-            console.print("  A person marks it.")
-        elif checked := _last_check(submission):
-            console.print(f"  Last self-check of this program: {checked}. {hidden_checks_notice(exercise)}")
-        elif not flaw:
-            unchecked.append(exercise)
-            console.print("  This program has not been checked.", style=NOTICE)
-    console.print(_next_step(unfinished, unchecked, foreign, out), markup=False)
-    if has_failed:
+        _write(console, path, submission, out, earlier, left)
+    console.print(left.next_step(out), markup=False)
+    if left.unfinished:
         raise typer.Exit(COMMAND_FAILED)
 
 
-def _next_step(unfinished: list[str], unchecked: list[str], foreign: list[Path], out: Path) -> str:
-    """Return what to do, by the exercises with a flaw, those without a check, and the files that submit left there."""
-    if unfinished:
-        return f"Next: complete the program, save it, and type again: ./course submit {' '.join(unfinished)}"
-    first = [f"./course check {exercise}; " for exercise in unchecked]
-    first += [f"remove {path} unless it is what you mean to hand in; " for path in foreign]
-    return f"Next: {'then '.join([*first, ''])}hand in what is in {out}/, unchanged."
+@dataclass
+class _LeftToDo:
+    """Exercises, and files in the folder to hand in, with which something is still to be done.
+
+    Attributes:
+        unfinished: exercises whose program is the starter, or one that Python cannot run.
+        unsaved: exercises whose notebook is saved without the program that its cell wrote last.
+        unchecked: exercises whose program has not been checked.
+        foreign: files that `submit` did not write.
+    """
+
+    unfinished: list[str] = field(default_factory=list)
+    unsaved: list[str] = field(default_factory=list)
+    unchecked: list[str] = field(default_factory=list)
+    foreign: list[Path] = field(default_factory=list)
+
+    def next_step(self, out: Path) -> str:
+        """Return what to do next."""
+        if self.unfinished or self.unsaved:
+            again = as_typed(" ".join(["submit", *self.unfinished, *self.unsaved]))
+            complete = "complete the program, " if self.unfinished else ""
+            return f"Next: {complete}save it (Ctrl+S), and type again: {again}"
+        first = [f"{as_typed(f'check {exercise}')}; " for exercise in self.unchecked]
+        first += [f"remove {path} unless it is what you mean to hand in; " for path in self.foreign]
+        return f"Next: {'then '.join([*first, ''])}hand in what is in {out}/, unchanged."
+
+
+def _write(
+    console: LineConsole,
+    path: Path,
+    submission: Submission,
+    out: Path,
+    earlier: Mapping[Path, Submission | None],
+    left: _LeftToDo,
+) -> None:
+    """Write the file of an exercise in place of earlier ones, and print what it holds and what it replaces."""
+    exercise = submission.exercise
+    target = _target(path, exercise, out)
+    _copy(path, exercise, target)
+    console.print(
+        f"{target}: {_contents(submission)}, as saved {_saved(path)} (later edits are not in it: save them with "
+        "Ctrl+S, and submit again)",
+        markup=False,
+    )
+    console.print(f"  fingerprint {submission.fingerprint}: your grade's page shows it again", markup=False)
+    for old, before in earlier.items():
+        if old != target and not was_submitted(old, FILE):
+            left.foreign.append(old)
+            console.print(f"  {old} stays: submit did not write it", style=NOTICE, markup=False)
+            continue
+        if old != target:
+            old.unlink()
+        if said := _replaced(old, before, target, submission):
+            console.print(f"  it replaces {said}", style=NOTICE, markup=False)
+    store_submitted(target, FILE)
+    if written := _unsaved_program(path, submission):
+        left.unsaved.append(exercise)
+        console.print(
+            f"  Not handed in: {written}, the program of the cell that you ran last; {path.name} is saved without it.",
+            style=NOTICE,
+            markup=False,
+        )
+    elif exercise in essay_names():
+        console.print("  A person marks it.")
+    elif checked := _last_check(submission):
+        console.print(f"  Last self-check of this program: {checked}. {hidden_checks_notice(exercise)}")
+    elif exercise not in left.unfinished:
+        left.unchecked.append(exercise)
+        console.print("  This program has not been checked.", style=NOTICE)
 
 
 def _default_folder() -> Path:
@@ -160,17 +195,38 @@ def _replaced(old: Path, work: Submission | None, target: Path, new: Submission)
     return words if old == target else f"{old.name}: {words}"
 
 
-def _flaw(path: Path, submission: Submission) -> str:
-    """Return why a program can get no points: nothing is filled in, or Python cannot run it; "" if it may."""
-    exercise = submission.exercise
-    notebook = WORK / "exercises" / exercise / f"{exercise}.ipynb"
+@dataclass(frozen=True)
+class _Flaw:
+    """Why a program can get no points, and whether it is the starter."""
+
+    sentence: str
+    is_starter: bool
+
+
+def _flaw(path: Path, submission: Submission) -> _Flaw | None:
+    """Return why a program can get no points: nothing is filled in, or Python cannot run it; None if it may."""
+    notebook = WORK / "exercises" / submission.exercise / f"{submission.exercise}.ipynb"
     if is_starter(submission, notebook, path):
-        return (
+        sentence = (
             f"{path} is the starter as it was given out, which gets no points: write your code below "
             "# YOUR CODE HERE, save it with Ctrl+S, and run its cell"
         )
+        return _Flaw(sentence, is_starter=True)
     error = _syntax_error(submission)
-    return f"Python cannot run {path}: {error}" if error else ""
+    return _Flaw(f"Python cannot run {path}: {error}", is_starter=False) if error else None
+
+
+def _unsaved_program(path: Path, submission: Submission) -> str:
+    """Return the file that a cell wrote after its notebook was saved, if it holds another program; else ""."""
+    if _target(path, submission.exercise, path.parent).suffix != ".ipynb":
+        return ""
+    saved = path.stat().st_mtime
+    for name, text in submission.sources.items():
+        written = path.with_name(name)
+        is_newer = written.is_file() and written.stat().st_mtime > saved
+        if is_newer and written.read_text(encoding="utf-8", errors="replace").strip() != text.strip():
+            return name
+    return ""
 
 
 def _syntax_error(submission: Submission) -> str:
@@ -189,7 +245,7 @@ def _syntax_error(submission: Submission) -> str:
 
 
 def _in_words(submission: Submission) -> str:
-    """Return a program's fingerprint and, if it was the last one that was checked, how the check ended."""
+    """Return a program's fingerprint and, if it was checked, how the check ended."""
     checked = _last_check(submission)
     return f"fingerprint {submission.fingerprint}" + (f": {checked}" if checked else "")
 
@@ -207,7 +263,8 @@ def _copy(path: Path, exercise: str, target: Path) -> None:
 
 
 def _contents(submission: Submission) -> str:
-    return "; ".join(f"{name}, lines: {len(text.splitlines())}" for name, text in submission.sources.items())
+    lines = {name: len(text.splitlines()) for name, text in submission.sources.items()}
+    return "; ".join(f"{name}, {number} line{'' if number == 1 else 's'}" for name, number in lines.items())
 
 
 def _saved(path: Path) -> str:
@@ -217,8 +274,6 @@ def _saved(path: Path) -> str:
 
 
 def _last_check(submission: Submission) -> str:
-    """Return how the last self-check of this program ended; "" if there was none, or of a later program."""
-    last = last_checks().get(submission.exercise)
-    if last is None or last.program != submission.fingerprint:
-        return ""
-    return f"{last.passed} of {last.total} visible checks passed"
+    """Return how the last self-check of this program ended; "" if there was none."""
+    last = last_check_of(submission.fingerprint)
+    return f"{last.passed} of {last.total} visible checks passed" if last else ""

@@ -19,7 +19,7 @@ from lab.running.node_diagnosis import (
     all_have_failed,
     has_no_answer_yet,
     server_of,
-    what_is_to_be_written,
+    what_nodes_lack,
     why_not_connected,
     why_not_offered,
     why_silent,
@@ -60,13 +60,14 @@ def wait_until(
         if becomes_true(is_over, timeout) and not hopeless.found:
             return
     waited = "never, as things are" if hopeless.found else f"not within {timeout:g} s"
-    message = f"{what}: {waited}" + (f", but {seen()!r}" if seen else "")
+    last = seen() if seen else ""
+    message = f"{what}: {waited}" + (f", but {last!r}" if last != "" else "")
     if fell := topics.fell_at():
         when = f"{abs(fell - began):.1f} s {'after' if fell > began else 'before'} this wait began"
         message += f". The robot lies: it fell {when}. lab.restart_robot() sets it up again."
     nodes = started_nodes()
     raise NotInTimeError(
-        message + (why_they_ended(nodes) or what_is_to_be_written(nodes) or why_not_connected(nodes))
+        message + (why_they_ended(nodes) or what_nodes_lack(nodes) or why_not_connected(nodes))
     )
 
 

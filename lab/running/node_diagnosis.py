@@ -23,7 +23,8 @@ from autograder.authoring.diagnosis.stack_location import where_it_waited
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
-from autograder.engine.hand_in import given_in
+from autograder.engine.starter import empty_places, what_is_to_be_written
+from autograder.engine.submission import Submission
 from lab.client.connection import NAMESPACE, ROBOT_NODE, connection
 from lab.client.graph import Endpoint, Topic, topics_in_graph
 from lab.client.interaction_log import log
@@ -42,11 +43,6 @@ _FRAME = re.compile(r'^  File "([^"]+)", line \d+.*\n(?:    .*\n)*', re.MULTILIN
 _FOLDER = re.compile(r'(?<=File ")[^"]*/(?=\w+\.py")')
 _PLACE = re.compile(r"line (\d+) of (\w+\.py)")
 _ERROR = re.compile(r"^[\w.]*(?:Error|Exception)\b.*", re.MULTILINE)
-_PLACES = re.compile(r"^ *# YOUR CODE HERE", re.MULTILINE)
-_EMPTY_PLACES = re.compile(
-    r"^(?P<indent> *)# YOUR CODE HERE.*\n(?: *(?:#.*)?\n)*(?! *(?:#|\n))(?:(?P=indent)return \w+$|(?!(?P=indent)))",
-    re.MULTILINE,
-)
 
 
 def why_they_ended(nodes: Iterable[StudentNode]) -> str:
@@ -56,15 +52,10 @@ def why_they_ended(nodes: Iterable[StudentNode]) -> str:
     )
 
 
-def what_is_to_be_written(nodes: Iterable[StudentNode]) -> str:
+def what_nodes_lack(nodes: Iterable[StudentNode]) -> str:
     """Return where nothing is written yet below `# YOUR CODE HERE` in running nodes, each in a line; "" if nowhere."""
-    places = ((node.file.name, _empty_places(node.file)) for node in nodes if node.is_running)
-    return "".join(
-        f"\n{name} is as the starter leaves it below `# YOUR CODE HERE` in {_in_words(lines)}: "
-        "write your code there."
-        for name, lines in places
-        if lines
-    )
+    found = [what_is_to_be_written(*_program(node.file)) for node in nodes if node.is_running]
+    return "".join(f"\n{sentence}" for sentence in found if sentence)
 
 
 def has_no_answer_yet(nodes: Iterable[StudentNode], service: str) -> bool:
@@ -73,7 +64,10 @@ def has_no_answer_yet(nodes: Iterable[StudentNode], service: str) -> bool:
     callback = _callback_of(service, server.file)[0] if server else None
     if server is None or callback is None or not all(isinstance(each, ast.Return) for each in callback.body):
         return False
-    return any(callback.lineno <= line <= (callback.end_lineno or 0) for line in _empty_places(server.file))
+    return any(
+        callback.lineno <= line <= (callback.end_lineno or 0)
+        for line in empty_places(*_program(server.file)).get(server.file.name, [])
+    )
 
 
 def all_have_failed(nodes: Iterable[StudentNode]) -> bool:
@@ -169,24 +163,10 @@ def _has_failed(node: StudentNode) -> bool:
     return bool(node.exit_status) and not node.was_stopped
 
 
-def _empty_places(file: Path) -> list[int]:
-    """Return the lines `# YOUR CODE HERE` that no line of the student follows; of the untouched starter all of them."""
-    program = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
-    pattern = _PLACES if _is_the_starter(file, program) else _EMPTY_PLACES
-    return [program.count("\n", 0, place.start()) + 1 for place in pattern.finditer(program)]
-
-
-def _is_the_starter(file: Path, program: str) -> bool:
-    """Whether a program is the starter: what an unchanged cell of the notebook beside its file writes."""
-    notebook = file.with_suffix(".ipynb")
-    if not notebook.is_file() or not _PLACES.search(program):
-        return False
-    return given_in(notebook.read_bytes()).get(file.name, "").strip() == program.strip()
-
-
-def _in_words(lines: list[int]) -> str:
-    *others, last = map(str, lines)
-    return f"lines {', '.join(others)} and {last}" if others else f"line {last}"
+def _program(file: Path) -> tuple[Submission, Path]:
+    """Return a node's program, and the notebook beside it that may have written it."""
+    text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
+    return Submission(file.stem, "", {file.name: text}), file.with_suffix(".ipynb")
 
 
 def _missing_connections(node: StudentNode) -> Iterator[str]:

@@ -274,11 +274,11 @@ def test_a_self_check_saves_the_program_that_it_checks(page: Page, folder: Path,
     page.keyboard.type("  # not saved yet")
     page.get_by_role("menuitem", name="Run", exact=True).click()
     page.get_by_text("Run All Cells", exact=True).click()
-    page.get_by_text("is saved with the program that was checked").wait_for()
+    page.get_by_text("Next: mend what the first failed check names").wait_for()
     expect(page.get_by_text("is saved with another program")).to_have_count(0)
     assert "not saved yet" in notebook.read_text()
     require_saved(page)
-    assert "is saved with the program" in notebook.read_text()
+    assert "Next: mend what the first failed check names" in notebook.read_text()
     failed = page.locator(".course-verdicts details[open]").first
     assert "failed: Each of the twelve situations" in failed.inner_text()
     in_both_themes(page)

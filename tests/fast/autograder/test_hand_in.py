@@ -14,7 +14,7 @@ from autograder import self_check as module
 from autograder.classroom.batch.collection import collect, files_of_exercises
 from autograder.engine.hand_in import Names
 from autograder.engine.submission import Submission, UnusableSubmission, read_submission
-from autograder.engine.verdict import Grade
+from autograder.engine.verdict import CheckVerdict, Grade
 from course_cli import own_work as own_work_module
 from course_cli.commands import submit as command
 from course_cli.own_work import own_work
@@ -231,9 +231,7 @@ def test_check_finds_work_in_a_folder_below(tmp_path: Path, monkeypatch: pytest.
     assert own_work(NAME, None) == (Path("work") / SECOND, [])
 
 
-@pytest.mark.parametrize(
-    ("saved", "said"), [(WORK, "is saved with the program that was checked"), (OTHER, "save it (Ctrl+S)")]
-)
+@pytest.mark.parametrize(("saved", "said"), [(WORK, "Next: hand it in"), (OTHER, "save it (Ctrl+S)")])
 def test_a_self_check_says_whether_what_was_checked_is_saved(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture, saved: str, said: str
 ) -> None:
@@ -242,14 +240,14 @@ def test_a_self_check_says_whether_what_was_checked_is_saved(
 
     def check_with_progress(*_: object, **__: object) -> Grade:
         print("the verdicts")
-        return Grade(NAME, "me", "none", [], program=checked)
+        passed = CheckVerdict("check", "Title", "passed", 1, 1)
+        return Grade(NAME, "me", "none", [passed], program=checked)
 
     monkeypatch.setattr(module, "check_with_progress", check_with_progress)
     put(tmp_path, FIRST, (f"{NAME}.ipynb", notebook(saved)))
     module.self_check(NAME)
     printed = capsys.readouterr().out
     before, after = printed.split("the verdicts")
-    assert f"{NAME}.ipynb" in after
     assert said in after
     assert (said in before) == (saved != WORK)  # nobody overlooks a warning
     assert "hidden checks add" in printed
@@ -260,8 +258,8 @@ def test_submit_writes_what_a_grader_takes_and_says_what_it_holds(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    last = {NAME: LastCheck(3, 4, "2026-11-27T10:00:00", Submission(NAME, "", {FIRST: WORK}).fingerprint)}
-    monkeypatch.setattr(command, "last_checks", lambda: last)
+    checked = {fingerprint(WORK): LastCheck(3, 4, "2026-11-27T10:00:00")}
+    monkeypatch.setattr(command, "last_check_of", checked.get)
     put(tmp_path / "exercises" / NAME, FIRST, f"{NAME} (1).ipynb.txt")
     for name in ("GetBatteryStatus.srv", "NavigateToPose.action"):
         put(tmp_path / "exercises/interfaces", name)
@@ -271,8 +269,8 @@ def test_submit_writes_what_a_grader_takes_and_says_what_it_holds(
     assert sorted(path.name for path in handed_in.iterdir()) == [f"{NAME}.ipynb", "interfaces.zip"]
     assert read_submission(handed_in / f"{NAME}.ipynb", NAME).sources == {FIRST: WORK}
     printed = " ".join(capsys.readouterr().out.split())
-    assert f"{NAME}.ipynb: {FIRST}, lines: 1, as saved" in printed
-    assert f"fingerprint {last[NAME].program}" in printed
+    assert f"{NAME}.ipynb: {FIRST}, 1 line, as saved" in printed
+    assert f"fingerprint {fingerprint(WORK)}" in printed
     assert "Last self-check of this program: 3 of 4 visible checks passed" in printed
     assert (
         "This program has not been checked. Next: ./course check interfaces; then hand in what is" in printed
@@ -301,10 +299,8 @@ def test_submit_keeps_a_program_that_runs_when_python_cannot_run_the_new_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    fingerprint = Submission(NAME, "", {FIRST: WORK}).fingerprint
-    monkeypatch.setattr(
-        command, "last_checks", lambda: {NAME: LastCheck(7, 7, "2026-11-27T10:00:00", fingerprint)}
-    )
+    checked = {fingerprint(WORK): LastCheck(7, 7, "2026-11-27T10:00:00")}
+    monkeypatch.setattr(command, "last_check_of", checked.get)
     handed_in = tmp_path / "hand_in" / f"{NAME}.ipynb"
     put(tmp_path, (f"{NAME}.ipynb", notebook("x = 1\ny = (2\n")))
     with pytest.raises(typer.Exit):  # there is nothing else to hand in
@@ -320,12 +316,14 @@ def test_submit_keeps_a_program_that_runs_when_python_cannot_run_the_new_one(
         command.submit([NAME])
     assert read_submission(handed_in, NAME).sources == {FIRST: WORK}
     printed = " ".join(capsys.readouterr().out.split())
-    assert f"it keeps fingerprint {fingerprint}: 7 of 7 visible checks passed" in printed
+    assert f"it keeps fingerprint {fingerprint(WORK)}: 7 of 7 visible checks passed" in printed
     assert printed.count("Next:") == 1
 
     put(tmp_path, (f"{NAME}.ipynb", notebook(OTHER)))
     command.submit([NAME])
-    assert f"another program, fingerprint {fingerprint}: 7 of 7" in " ".join(capsys.readouterr().out.split())
+    assert f"another program, fingerprint {fingerprint(WORK)}: 7 of 7" in " ".join(
+        capsys.readouterr().out.split()
+    )
 
 
 def printed_by(capsys: pytest.CaptureFixture) -> str:
@@ -407,13 +405,14 @@ def test_submit_says_that_nothing_is_filled_in_and_keeps_earlier_work(
     monkeypatch.chdir(tmp_path)
     starter = (f"{NAME}.ipynb", STARTER.read_text())
     put(tmp_path, starter)
-    command.submit([NAME])
+    with pytest.raises(typer.Exit):
+        command.submit([NAME])
     said = printed_by(capsys)
     assert f"{NAME}.ipynb is the starter as it was given out, which gets no points" in said
     assert f"type again: ./course submit {NAME}" in said
     assert "hand in what is in" not in said
     handed_in = tmp_path / "hand_in" / f"{NAME}.ipynb"
-    assert "YOUR CODE HERE" in handed_in.read_text()
+    assert not handed_in.exists()
 
     put(tmp_path, f"{NAME}.ipynb")
     command.submit([NAME])
@@ -432,6 +431,13 @@ def test_submit_says_that_unsaved_edits_are_missing(
     put(tmp_path, f"{NAME}.ipynb")
     command.submit([NAME])
     assert "(later edits are not in it: save them with Ctrl+S, and submit again)" in printed_by(capsys)
+    monkeypatch.setenv("JPY_PARENT_PID", "1")  # as in a cell
+    put(tmp_path, f"{NAME}.ipynb", (FIRST, OTHER))  # the cell was run after the notebook was saved
+    os.utime(tmp_path / FIRST, (5, 5))
+    command.submit([NAME])
+    said = printed_by(capsys)
+    assert f"Not handed in: {FIRST}, the program of the cell that you ran last" in said
+    assert said.endswith(f"save it (Ctrl+S), and type again: !course submit {NAME}")
 
 
 @pytest.mark.parametrize(("saved_in_time", "warns"), [(True, False), (False, True)])

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from autograder.engine.hand_in import given_in
+from autograder.engine.starter import given_in
 from lab import notices
 from lab.client import topics
 from lab.client.exchange import no_answer, wait_until
@@ -21,7 +21,7 @@ from lab.running.node_diagnosis import (
     how_it_ended,
     own_output,
     server_of,
-    what_is_to_be_written,
+    what_nodes_lack,
     where_blocked,
     why_silent,
 )
@@ -175,11 +175,11 @@ def test_an_exception_that_has_not_ended_the_node_is_reported(start: Callable[..
 def test_places_below_which_nothing_is_written_are_named(start: Callable[..., StudentNode]) -> None:
     node = start(f"{STARTER}print('up', flush=True)\ntime.sleep(60)\n")
     assert becomes_true(lambda: "up" in node.log(), 10.0)
-    assert what_is_to_be_written([node]) == (
+    assert what_nodes_lack([node]) == (
         "\nstatus.py is as the starter leaves it below `# YOUR CODE HERE` in lines 3 and 13: write your code there."
     )
     node.kill()
-    assert what_is_to_be_written([node]) == ""
+    assert what_nodes_lack([node]) == ""
 
 
 def test_a_node_whose_callbacks_return_is_not_blocked(start: Callable[..., StudentNode]) -> None:
@@ -202,12 +202,12 @@ def released(tmp_path: Path) -> SimpleNamespace:
 
 @pytest.mark.usefixtures("graph")
 def test_all_places_of_an_untouched_starter_are_named(released: SimpleNamespace) -> None:
-    assert "in lines 19 and 26: " in what_is_to_be_written([released])
+    assert "in lines 19 and 26: " in what_nodes_lack([released])
     assert has_no_answer_yet([released], "get_battery_status")
     program = released.file.read_text(encoding="utf-8")
     head, _, tail = program.rpartition("# YOUR CODE HERE")
     released.file.write_text(f"{head}response.available = True{tail}", encoding="utf-8")
-    assert what_is_to_be_written([released]) == ""
+    assert what_nodes_lack([released]) == ""
     assert not has_no_answer_yet([released], "get_battery_status")
 
 
