@@ -21,8 +21,8 @@ _FOLDER = files("chapters.support") / "questions"
 _STYLE = """<style>
 .course-choices { width: auto; height: auto; }
 .course-choices label { height: auto; line-height: 1.4; padding: 0.3em 0; cursor: pointer; }
-.course-choices input { height: 1.4em; accent-color: var(--jp-brand-color1); }
-.course-choices input:focus-visible { outline: 2px solid var(--jp-brand-color1); outline-offset: 2px; }
+.course-choices label input { height: 1.4em; margin-left: 4px; accent-color: var(--jp-brand-color1); }
+.course-choices input:focus-visible { outline: 2px solid var(--jp-brand-color1); outline-offset: 1px; }
 </style>"""  # by default ipywidgets cuts long texts
 
 

@@ -106,8 +106,13 @@ _SIGNS: dict[str, Remedy] = {
     r"^(MemoryError|std::bad_alloc)|Cannot allocate memory": Remedy(
         f"It used too much memory. {GROWS}", LEAKS
     ),
-    r"^(ImportError|ModuleNotFoundError|IndentationError|SyntaxError|TabError)\b": Remedy(
-        "Python could not load the file: fix the line that the log names, and run its cell again.",
+    r"^(IndentationError|SyntaxError|TabError)\b": Remedy(
+        "Python cannot read the file. Look in the line named here, and in the one before it, for a missing comma, "
+        "bracket, quote or colon, or a wrong indent; then run its cell again.",
+        "02_services#first-file",
+    ),
+    r"^(ImportError|ModuleNotFoundError)\b": Remedy(
+        "Python found no module, or no name in it, as the file imports it: correct the import, and run its cell again.",
         "02_services#first-file",
     ),
     r"^EOFError: EOF when reading a line": Remedy(
@@ -150,8 +155,9 @@ def is_not_python(run: Record) -> bool:
 def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
     """Return what to do about a program that ended by itself, or by an exception."""
     service = unanswered_service(run)
-    if exited.returncode and (remedy := remedy_for_a_traceback(run.output("stderr"), service)):
-        return _with_place(remedy, run)
+    output = run.output("stderr")
+    if exited.returncode and (remedy := remedy_for_a_traceback(output, service)):
+        return remedy
     if -exited.returncode in _CRASHED:
         return Remedy(
             f"{signal.Signals(-exited.returncode).name} ended the program, a crash in native code: use no node "
@@ -163,10 +169,10 @@ def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
             "all names are relative and all types those of the task."
         )
     if exited.returncode and run.first(ev.NodeReady) is None:
-        return _with_place(Remedy("The exception was raised before your node was ready."), run)
+        return _with_place(Remedy("The exception was raised before your node was ready."), output)
     if exited.returncode:
         return _with_place(
-            Remedy("An exception in a callback ends rclpy.spin(), and with it the node.", CRASHES), run
+            Remedy("An exception in a callback ends rclpy.spin(), and with it the node.", CRASHES), output
         )
     if _is_a_server(run):
         return Remedy(
@@ -182,7 +188,7 @@ def remedy_for_a_traceback(output: str, service: str = "") -> Remedy | None:
     for sign, remedy in _SIGNS.items():
         if found := re.search(sign, traceback, re.MULTILINE):
             help = found.expand(remedy.help).replace("{of}", f" of {service}" if service else "")
-            return Remedy(help, remedy.see)
+            return _with_place(Remedy(help, remedy.see), output)
     return None
 
 
@@ -199,18 +205,18 @@ def end_in_words(run: Record, exited: ev.NodeExited) -> str:
 
 def raised_in(traceback: str) -> str | None:
     """Return the last line of a traceback that is in the student's file, unless that line spins the node."""
-    frames = re.findall(r'^\s*File "([^"]+)", line (\d+), in ([\w.<>]+)', traceback, re.MULTILINE)
+    frames = re.findall(r'^\s*File "([^"]+)", line (\d+)(?:, in ([\w.<>]+))?', traceback, re.MULTILINE)
     own = [index for index, (path, *_) in enumerate(frames) if OWN_FILE.search(path)]
     if not own or any(function.startswith("spin") for *_, function in frames[own[-1] + 1 :]):
         return None
     path, line, function = frames[own[-1]]
-    where = "" if function.startswith("<") else f", in {function}()"
+    where = f", in {function}()" if function.isidentifier() else ""
     return f"line {line} of {path.rsplit('/', 1)[-1]}{where}"
 
 
-def _with_place(remedy: Remedy, run: Record) -> Remedy:
-    """Add the student's line that raised, if known."""
-    place = raised_in(_last_traceback(run.output("stderr")))
+def _with_place(remedy: Remedy, output: str) -> Remedy:
+    """Add the student's line that raised the last exception in a program's output, if known."""
+    place = raised_in(_last_traceback(output))
     where = f" It was raised in {place}." if place else ""
     return Remedy(remedy.help + where, remedy.see)
 

@@ -221,8 +221,8 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
     expect(notebook.get_by_role("heading", name="The next part")).to_be_visible()
 
     page.locator(".course-choices input").first.focus()
-    page.keyboard.press("Space")
     page.keyboard.press("ArrowDown")
+    page.keyboard.press("Space")
     page.get_by_text("You predict b. Run the next cell.").wait_for()
     assert page.get_by_role("radio", name=re.compile(r"^b\) ")).is_checked()
     page.get_by_role("radio", name=re.compile(r"^c\) ")).click()
@@ -249,10 +249,13 @@ def test_arrow_keys_stay_in_their_question_and_escape_leads_back_to_its_cell(
     first, second = (page.get_by_role("radiogroup", name=f"Question {number}.") for number in (1, 2))
     last = second.get_by_role("radio").last
     last.press("Space")
-    for _ in range(2):  # to the first answer, and to the one after it
+    page.keyboard.press("ArrowUp")
+    for _ in range(3):  # to the last answer again, to the first, and to the one after it
         page.keyboard.press("ArrowDown")
     checked = "answers => answers.map(answer => answer.checked)"
-    assert second.get_by_role("radio").evaluate_all(checked) == [False, True, False]
+    assert second.get_by_role("radio").evaluate_all(checked) == [False, False, True]  # chosen by Space only
+    page.keyboard.press("Space")
+    expect(second.get_by_role("radio").nth(1)).to_be_checked()
     assert first.get_by_role("radio").evaluate_all(checked) == [False] * 3
     page.keyboard.press("Escape")
     page.get_by_text("Mode: Command").wait_for()

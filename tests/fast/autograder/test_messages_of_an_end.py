@@ -65,7 +65,7 @@ NO_RETURN = said(
         (said("OSError: [Errno 28] No space left on device"), "too much to disk"),
         (said("RuntimeError: can't start new thread"), "too many threads or processes"),
         (said("MemoryError"), "too much memory"),
-        (said("ModuleNotFoundError: No module named 'std_srv'"), "could not load the file"),
+        (said("ModuleNotFoundError: No module named 'std_srv'"), "found no module"),
         (said("ValueError: 3"), "An exception in a callback ends rclpy.spin(), and with it the node."),
     ],
 )

@@ -87,6 +87,8 @@ def test_a_syntax_error_is_reported_once_and_the_situations_are_not_run():
     first, *situations = [judge(check, [run]) for check in CHECKS]
     assert first.status == "failed"
     assert first.observed.endswith("SyntaxError: '{' was never closed")
+    assert "missing comma, bracket" in first.help
+    assert "It was raised in line 5 of patterns.py." in first.help
     assert {verdict.status for verdict in situations} == {"not run"}
     assert {verdict.help for verdict in situations} == {f"Needs a check that did not pass: “{first.title}”."}
 

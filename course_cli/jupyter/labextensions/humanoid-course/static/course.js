@@ -9,6 +9,7 @@ const PERIOD = 200; // ms
 const SIDEWAYS = ["ArrowLeft", "ArrowRight"];
 const NO_CHOICE = "Predict first"; // how lab/learning/prediction.py answers a reply() without a choice
 const ARROWS = ["ArrowUp", "ArrowDown", ...SIDEWAYS];
+const BACK = ["ArrowUp", "ArrowLeft"];
 const COPIED = ["kernelspec", "language_info"]; // metadata
 const NAMELESS = ".widget-radio-box input[type=radio]:not([name])";
 const OUTPUT = ".jp-OutputArea-output:not([tabindex])";
@@ -48,11 +49,22 @@ function letDrawingsScroll() {
   }
 }
 
-// An arrow key moves within a question's radio buttons; JupyterLab would go to the next cell. Esc leads back to the cell.
+// An arrow key goes to another answer of a question without choosing it, because a chosen answer is marked at once.
+function goToAnswer(key, radio) {
+  const answers = [...radio.closest(".widget-radio-box").querySelectorAll("input[type=radio]")];
+  const step = BACK.includes(key) ? -1 : 1;
+  answers.at((answers.indexOf(radio) + step) % answers.length).focus();
+}
+
+// JupyterLab would go to the next cell on an arrow key. Esc leads back to the cell.
 function keepKeys(event, shell) {
   const { key, target } = event;
   const isIn = (place) => target.matches?.(place);
-  if (ARROWS.includes(key) && isIn(".jupyter-widgets input[type=radio]")) event.stopPropagation();
+  if (ARROWS.includes(key) && isIn(".widget-radio-box input[type=radio]")) {
+    event.stopPropagation();
+    event.preventDefault();
+    goToAnswer(key, target);
+  }
   if (SIDEWAYS.includes(key) && isIn(".jp-OutputArea-output[tabindex]")) event.stopPropagation();
   if (key === "Escape" && isIn(".jp-OutputArea *")) shell.currentWidget?.content?.activeCell?.node.focus();
 }
