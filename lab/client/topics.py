@@ -81,6 +81,12 @@ def mode() -> str:
     return name_of(RobotMode, robot_state().mode)
 
 
+def whereabouts() -> str:
+    """Return the robot's mode and pose in words; a robot that lies has no heading that says anything."""
+    words = f"{mode()} at {pose()}"
+    return words.partition(", heading")[0] if mode() == "FALLEN" else words
+
+
 def fell_at() -> float | None:
     """Return when the robot fell, in s of `time.monotonic()`; None if no robot runs that lies."""
     stored = _last_messages()

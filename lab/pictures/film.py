@@ -57,7 +57,7 @@ def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: 
     with notice(
         f"The robot is being filmed for {seconds:g} s. Before and after that the film takes a few seconds."
     ):
-        return _film(postures, words, lambda: f"{words}, to {topics.pose()}", camera, file)
+        return _film(postures, words, lambda: f"{words}; at the end {topics.whereabouts()}", camera, file)
 
 
 def film_of_messages(

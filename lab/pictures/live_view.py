@@ -144,7 +144,7 @@ class _LiveView:
             moved = False
             try:
                 set_current_posture(body)
-                text = f"{topics.mode()} at {topics.pose()}"  # of the same moment as the picture
+                text = topics.whereabouts()  # of the same moment as the picture
                 moved = bool(abs(body.data.qpos - drawn).max() > SEEN_MOTION)
             except NoRobotError as error:  # the robot may be started again
                 text = "The robot is starting." if topics.is_starting() else str(error)

@@ -23,8 +23,6 @@ _STYLE = f"""<style>
 .course-live .widget-html-content {{ padding: 0 4px; white-space: normal; overflow-wrap: anywhere; line-height: 1.4; }}
 .course-live p {{ margin: 0.3em 0; }}
 .course-live .course-ended {{ visibility: hidden; animation: course-ended 0s {SILENCE}s forwards; font-weight: bold; }}
-.course-live.jupyter-widgets-disconnected .course-ended, .course-live .jupyter-widgets-disconnected .course-ended
-{{ visibility: visible; }}
 .course-live img.jupyter-widgets-disconnected {{ opacity: 0.4; }}
 .course-live.jupyter-widgets-disconnected::before, .course-live .jupyter-widgets-disconnected::before
 {{ display: none; }}
@@ -39,8 +37,8 @@ _ENDED = (
 class Panel:
     """A panel with the picture and a line of text, which JupyterLab shows again when its page is loaded again.
 
-    The page notices by itself that the robot has ended: ipywidgets marks what has lost its kernel, as after a restart,
-    and each text restarts an animation, whose end shows the sentence, too.
+    The page notices by itself that the robot has ended: each text restarts an animation, whose end shows a sentence. A
+    notebook that is opened again shows the last text until its kernel is found, which takes some seconds.
     """
 
     def __init__(self, picture: ipywidgets.Image) -> None:

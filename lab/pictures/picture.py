@@ -28,7 +28,7 @@ def show_robot(camera: str = "track") -> HTML:
 
     Without OpenGL you get the caption of the picture and the reason why there is none.
     """
-    words = f"The robot: {topics.mode()} at {topics.pose()}"
+    words = f"The robot: {topics.whereabouts()}"
     body = _body(topics.scene(), topics.robot())
     set_current_posture(body)
     try:

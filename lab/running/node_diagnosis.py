@@ -87,13 +87,13 @@ def why_not_connected(nodes: Iterable[StudentNode]) -> str:
 
 def where_blocked(node: StudentNode) -> str:
     """Return in which line a callback of a running node does not return, and what follows; "" if none is blocked."""
-    remedy = ""
+    help = ""
     for _ in range(_SAMPLES):
         run = _record(node, _stack(node))
         if not where_it_waited(run):
             return ""
-        remedy = remedy_for_no_answer(run).help
-    return _with_code(remedy, node)
+        help = _why_no_answer(run, node)
+    return help
 
 
 def how_it_ended(node: StudentNode) -> str:
@@ -130,7 +130,7 @@ def why_silent(server: StudentNode) -> str:
         errors = _ERROR.findall(server.log()) or ["an exception"]
         help = f" {remedy.help}" if remedy else ""
         return f"{server.file.name} still runs, but has printed {errors[-1]}.{help}"
-    return _with_code(remedy_for_no_answer(run).help, server)
+    return _why_no_answer(run, server)
 
 
 def why_unfinished(server: StudentNode, goal: str) -> str:
@@ -284,6 +284,18 @@ def _callback_of(service: str, file: Path) -> tuple[ast.FunctionDef | ast.AsyncF
                 returns = any(isinstance(each, ast.Return) and each.value for each in ast.walk(callback))
                 return callback, returns
     return None, False
+
+
+def _why_no_answer(run: Transcript, node: StudentNode) -> str:
+    """Return why a node gives no answer; where it was blocked, also the innermost `while` loop around that line."""
+    help, place = remedy_for_no_answer(run).help, where_it_waited(run)
+    if place:
+        nodes = ast.walk(_syntax_tree(node.file.with_name(place.file)))
+        loops = [each for each in nodes if isinstance(each, ast.While)]
+        around = [each.lineno for each in loops if each.lineno < place.line <= (each.end_lineno or 0)]
+        if around:
+            help = help.replace(str(place), f"{place}, in the loop of line {max(around)} of {place.file}")
+    return _with_code(help, node)
 
 
 def _on_the_callback(service: str, file: Path) -> str:

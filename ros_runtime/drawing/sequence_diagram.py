@@ -19,7 +19,9 @@ TOP = 74
 BOTTOM = 20
 NOTE_GAP = 10  # px between a note's dot and its text
 LETTER_WIDTH = 8  # px, of the widest letter
-LINE_LENGTH = 30  # characters; a longer label of an arrow between two participants gets more lines
+LINE_LENGTH = (
+    22  # characters; a longer label between two participants gets more lines: three lanes fit in 600 px
+)
 LINE_HEIGHT = 15  # px
 COLOURS = {"request": "#1f5fa8", "answer": "#2c7a3f", "message": "#595959"}
 DASHES = {"request": "", "answer": ' stroke-dasharray="7 4"', "message": ' stroke-dasharray="2 3"'}
@@ -78,7 +80,7 @@ def _room(arrow: Arrow, lanes: Sequence[str]) -> int:
 def _lines(arrow: Arrow) -> list[str]:
     if arrow.sender == arrow.receiver or len(arrow.label) <= LINE_LENGTH:
         return [arrow.label]
-    return wrap(arrow.label, LINE_LENGTH)
+    return wrap(arrow.label, LINE_LENGTH, break_long_words=False)
 
 
 def _row_height(arrow: Arrow) -> int:

@@ -34,7 +34,8 @@ BLOCKED = """
 import threading, time
 def on_request():
     print("up", flush=True)
-    time.sleep(60)
+    while True:
+        time.sleep(60)
 threading.Thread(target=on_request, daemon=True).start()
 def main():
     while True:
@@ -72,7 +73,8 @@ def test_the_line_in_which_a_callback_waits_is_quoted_and_the_program_goes_on(
     assert becomes_true(lambda: "up" in node.log(), 10.0)
     for _ in range(2):
         assert why_silent(node).startswith(
-            "It was blocked in line 5 of status.py (`time.sleep(60)`), in on_request()."
+            "It was blocked in line 6 of status.py (`time.sleep(60)`), in on_request(), in the loop of line 5 of "
+            "status.py (`while True:`)."
         )
     assert where_blocked(node) == why_silent(node)
     assert node.is_running
