@@ -60,8 +60,7 @@ def robot(monkeypatch: pytest.MonkeyPatch) -> Iterator[Robot]:
         "scene": lambda: robot.scene,
         "robot": lambda: robot.name,
         "is_starting": lambda: robot.starting,
-        "mode": lambda: "OFF",
-        "pose": lambda: "x",
+        "whereabouts": lambda: "OFF at x",
     }
     monkeypatch.setattr(live_view, "topics", SimpleNamespace(**fakes))
     monkeypatch.setattr(live_view, "body_to_draw", body)
