@@ -65,11 +65,11 @@ def submit(
         earlier = _earlier(exercise, out)
         if flaw := _flaw(path, submission):
             left.unfinished.append(exercise)
-            console.print(flaw.sentence, style=NOTICE, markup=False)
+            console.print(flaw, style=NOTICE, markup=False)
             better = {old: work for old, work in earlier.items() if work and not _flaw(old, work)}
             for old, work in better.items():
                 console.print(f"  {old} is not replaced: it keeps {_in_words(work)}", markup=False)
-            if better or flaw.is_starter:
+            if better or not _syntax_error(submission):  # the starter
                 continue
         _write(console, path, submission, out, earlier, left)
     console.print(left.next_step(out), markup=False)
@@ -195,25 +195,16 @@ def _replaced(old: Path, work: Submission | None, target: Path, new: Submission)
     return words if old == target else f"{old.name}: {words}"
 
 
-@dataclass(frozen=True)
-class _Flaw:
-    """Why a program can get no points, and whether it is the starter."""
-
-    sentence: str
-    is_starter: bool
-
-
-def _flaw(path: Path, submission: Submission) -> _Flaw | None:
-    """Return why a program can get no points: nothing is filled in, or Python cannot run it; None if it may."""
+def _flaw(path: Path, submission: Submission) -> str:
+    """Return why a program can get no points: nothing is filled in, or Python cannot run it; "" if it may."""
     notebook = WORK / "exercises" / submission.exercise / f"{submission.exercise}.ipynb"
     if is_starter(submission, notebook, path):
-        sentence = (
+        return (
             f"{path} is the starter as it was given out, which gets no points: write your code below "
             "# YOUR CODE HERE, save it with Ctrl+S, and run its cell"
         )
-        return _Flaw(sentence, is_starter=True)
     error = _syntax_error(submission)
-    return _Flaw(f"Python cannot run {path}: {error}", is_starter=False) if error else None
+    return f"Python cannot run {path}: {error}" if error else ""
 
 
 def _unsaved_program(path: Path, submission: Submission) -> str:
