@@ -70,7 +70,7 @@ stops_when_canceled = of_a_cancel(model.stops_when_canceled, points=2, needs=can
 walks_again_after_a_cancel = of_a_cancel(
     [model.accepts, model.grants_cancels, model.succeeds, model.reports_where_it_ended],
     title="After a cancel, also an early one, the robot walks to a new goal, and the results are measured",
-    needs=[cancels_in_mid_stride, arrives],
+    needs=[cancels_in_mid_stride, arrives, fills_the_result],
     see="07_cancel_and_preempt#fix-intro",
 )
 new_goal_preempts_the_old = check_of(
@@ -79,7 +79,7 @@ new_goal_preempts_the_old = check_of(
     "results are measured",
     points=2,
     on=PREEMPT,
-    needs=arrives,
+    needs=[arrives, fills_the_result],
     see="07_cancel_and_preempt#preempt-why",
 )
 aborts_when_the_robot_falls = server_checks.fall_is_reported(model, on=FALL, needs=accepts_a_goal)
