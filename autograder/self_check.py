@@ -150,8 +150,8 @@ def check_with_progress(
 
         loaded = with_robot(robot, loaded)
     submission = read_submission(path, exercise)
-    if is_starter(submission, path.with_name(f"{exercise}.ipynb")):
-        console.print(what_is_to_be_written(submission), style=NOTICE, markup=False)
+    if is_starter(submission, notebook := path.with_name(f"{exercise}.ipynb")):
+        console.print(what_is_to_be_written(submission, notebook), style=NOTICE, markup=False)
     recorder = _recorder(loaded) if recordings or page else None
     if robot:
         console.print(EXTRA.format(robot=robot), style="bold", markup=False)
@@ -165,6 +165,10 @@ def check_with_progress(
     with RunningLine(console, loaded.checks, in_notebook=table is not None) as line:
 
         def report(verdict: CheckVerdict) -> None:
+            line.note(verdict)
+            if table:
+                table.add(verdict)
+                return
             with line.aside():
                 print_verdict(console, verdict)
 
@@ -175,7 +179,7 @@ def check_with_progress(
         options = GradingOptions(jobs=jobs, first_alone=True, recorded=bool(recorder or table))
         watcher = Watcher(report, on_retry, on_running=line.show)
         if table:
-            watcher = Watcher(table.add, on_evidence=table.draw, on_running=line.show)
+            watcher = Watcher(report, on_evidence=table.draw, on_running=line.show)
         if recorder:
             watcher = replace(watcher, on_evidence=_both(watcher.on_evidence, recorder.add))
         result = grade(submission, loaded, options, watcher, arenas=arenas)
@@ -217,9 +221,10 @@ def _add_films(table: NotebookTable, exercise: Exercise, grade: Grade) -> None:
     from autograder.recording.replay.failure_film import FailureFilms
 
     films = FailureFilms(exercise, grade)
-    for verdict in grade.checks:
-        if verdict.id not in table.evidence or verdict.robot_time is None:
-            continue
+    filmed = [each for each in grade.checks if each.id in table.evidence and each.robot_time is not None]
+    if filmed:
+        print("The films of failed checks are being drawn, which takes some seconds.")
+    for verdict in filmed:
         words, webp = "", b""
         table.film(verdict.id, "is being drawn …")
         try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from contextvars import copy_context
 from html import escape
 from typing import Any
@@ -15,6 +15,7 @@ from IPython.display import display
 
 DELAY = 0.8  # s; a step that ends sooner needs no notice
 _ROS2 = re.compile(r"(?:^|[\s;&|])(ros2 \w+(?: \w+)?)")
+_COURSE = re.compile(r"(?:^|[\s;&|/])(course \w+)")
 
 _only_one = threading.Lock()  # of a step and its parts, the step says what goes on
 
@@ -50,7 +51,7 @@ def notice(text: str) -> Iterator[None]:
 
 
 def announce_commands(shell: Any) -> None:
-    """Show a notice while a cell runs a `ros2` command, because a command discovers the graph before it prints."""
+    """Show a notice while a cell runs a `ros2` or `course` command, which takes seconds before it prints."""
     run: Callable[[str], None] = shell.system
     expand: Callable[..., str] = shell.var_expand
     further_frames = 2  # run_with_notice and expand_for_caller
@@ -62,11 +63,12 @@ def announce_commands(shell: Any) -> None:
         # IPython looks for the variables of a command in the frame that called system()
         shell.var_expand = expand_for_caller
         try:
+            words = ""
             if found := _ROS2.search(command):
                 words = f"{found[1]} runs. It first finds the nodes, which takes seconds, on a busy machine up to 20 s."
-                with notice(words):
-                    run(command)
-            else:
+            elif found := _COURSE.search(command):
+                words = f"{found[1]} runs. It first loads the course, which takes some seconds."
+            with notice(words) if words else nullcontext():
                 run(command)
         finally:
             shell.var_expand = expand

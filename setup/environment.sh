@@ -134,7 +134,7 @@ logged() {
     local ticker status=0
     echo "+ $*" >>"$log"
     while sleep 20 >/dev/null 2>&1 && kill -0 $$ 2>/dev/null; do
-        say "still $step ($((SECONDS - started)) s so far)"
+        say "still $step ($((SECONDS - started)) s since the beginning)"
     done 9>&- &
     ticker=$!
     "$@" >>"$log" 2>&1 </dev/null 9>&- || status=$?

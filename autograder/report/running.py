@@ -10,6 +10,7 @@ from rich.console import Console
 from rich.status import Status
 
 from autograder.authoring.checks import Check, Scenario
+from autograder.engine.verdict import CheckVerdict
 
 
 class RunningLine:
@@ -21,6 +22,7 @@ class RunningLine:
         self._in_notebook = in_notebook
         self._status = Status("", console=console) if console.is_terminal and not in_notebook else None
         self._shown = ""
+        self._judged: set[str] = set()
 
     def __enter__(self) -> RunningLine:
         return self
@@ -31,8 +33,8 @@ class RunningLine:
         self.show([])
 
     def show(self, scenarios: Sequence[Scenario]) -> None:
-        """Show the title of the first check of each running scenario; none removes the line."""
-        titles = [next(check.title for check in self._checks if each in check.on) for each in scenarios]
+        """Show the title of a check without a verdict for each running scenario; none removes the line."""
+        titles = [self._title_for(each) for each in scenarios]
         text = f"checking: {'; '.join(dict.fromkeys(titles))}" if titles else ""
         if text == self._shown:
             return
@@ -44,6 +46,14 @@ class RunningLine:
         elif text:
             self._console.print(text, style="dim", highlight=False)
         self._shown = text
+
+    def note(self, verdict: CheckVerdict) -> None:
+        """Note that a check has its verdict."""
+        self._judged.add(verdict.id)
+
+    def _title_for(self, scenario: Scenario) -> str:
+        checks = [check for check in self._checks if scenario in check.on]
+        return next((check for check in checks if check.id not in self._judged), checks[0]).title
 
     @contextmanager
     def aside(self) -> Iterator[None]:

@@ -47,8 +47,8 @@ def submit(
 ) -> None:
     """Write one file for each exercise to hand in, and print what it holds.
 
-    It replaces the file that an earlier `submit` wrote for the exercise. A program that Python cannot run replaces no
-    better one, and a starter in which nothing is filled in is not handed in.
+    It replaces the file that an earlier `submit` wrote for the exercise, unless that program has passed more visible
+    checks. A starter in which nothing is filled in is not handed in.
     """
     console = LineConsole()
     if file and len(exercises) > 1:
@@ -60,20 +60,36 @@ def submit(
         if out.resolve() == (path if path.is_dir() else path.parent).resolve():
             raise typer.BadParameter(f"{out} holds your own {path.name}: give another folder as --out")
         submission = read_submission(path, exercise)
+        unsaved = _unsaved_program(path, submission)
         for line in left_aside:
-            console.print(f"left aside: {line}", style=NOTICE, markup=False)
+            if not (unsaved and line.startswith(f"{unsaved} ")):  # which is said below
+                console.print(f"left aside: {line}", style=NOTICE, markup=False)
         earlier = _earlier(exercise, out)
         if flaw := _flaw(path, submission):
             left.unfinished.append(exercise)
             console.print(flaw, style=NOTICE, markup=False)
-            better = {old: work for old, work in earlier.items() if work and not _flaw(old, work)}
-            for old, work in better.items():
-                console.print(f"  {old} is not replaced: it keeps {_in_words(work)}", markup=False)
-            if better or not _syntax_error(submission):  # the starter
-                continue
+        better = {
+            old: work for old, work in earlier.items() if work and _is_better(old, work, submission, flaw)
+        }
+        for old, work in better.items():
+            left.worse += [] if flaw else [old]
+            now = "" if flaw else f"; this program: {_last_check(submission) or 'not checked yet'}"
+            console.print(
+                f"  {old} is not replaced: it keeps {_in_words(work)}{now}", style=NOTICE, markup=False
+            )
+        if better or (flaw and not _syntax_error(submission)):
+            continue
         _write(console, path, submission, out, earlier, left)
+        if unsaved:
+            left.unsaved.append(exercise)
+            console.print(
+                f"  Not handed in: {unsaved}, the program of the cell that you ran last; {path.name} is saved "
+                "without it.",
+                style=NOTICE,
+                markup=False,
+            )
     console.print(left.next_step(out), markup=False)
-    if left.unfinished:
+    if left.unfinished or left.worse:
         raise typer.Exit(COMMAND_FAILED)
 
 
@@ -85,12 +101,14 @@ class _LeftToDo:
         unfinished: exercises whose program is the starter, or one that Python cannot run.
         unsaved: exercises whose notebook is saved without the program that its cell wrote last.
         unchecked: exercises whose program has not been checked.
+        worse: files whose program has passed more visible checks than the one that would replace it.
         foreign: files that `submit` did not write.
     """
 
     unfinished: list[str] = field(default_factory=list)
     unsaved: list[str] = field(default_factory=list)
     unchecked: list[str] = field(default_factory=list)
+    worse: list[Path] = field(default_factory=list)
     foreign: list[Path] = field(default_factory=list)
 
     def next_step(self, out: Path) -> str:
@@ -99,6 +117,13 @@ class _LeftToDo:
             again = as_typed(" ".join(["submit", *self.unfinished, *self.unsaved]))
             complete = "complete the program, " if self.unfinished else ""
             return f"Next: {complete}save it (Ctrl+S), and type again: {again}"
+        if self.worse:
+            files = " and ".join(map(str, self.worse))
+            check = as_typed("check EXERCISE")
+            return (
+                f"Next: {check}, and submit again once it passes as many; to hand it in all the same, "
+                f"remove {files}."
+            )
         first = [f"{as_typed(f'check {exercise}')}; " for exercise in self.unchecked]
         first += [f"remove {path} unless it is what you mean to hand in; " for path in self.foreign]
         return f"Next: {'then '.join([*first, ''])}hand in what is in {out}/, unchanged."
@@ -132,18 +157,13 @@ def _write(
         if said := _replaced(old, before, target, submission):
             console.print(f"  it replaces {said}", style=NOTICE, markup=False)
     store_submitted(target, FILE)
-    if written := _unsaved_program(path, submission):
-        left.unsaved.append(exercise)
-        console.print(
-            f"  Not handed in: {written}, the program of the cell that you ran last; {path.name} is saved without it.",
-            style=NOTICE,
-            markup=False,
-        )
-    elif exercise in essay_names():
+    if exercise in essay_names():
         console.print("  A person marks it.")
     elif checked := _last_check(submission):
         console.print(f"  Last self-check of this program: {checked}. {hidden_checks_notice(exercise)}")
-    elif exercise not in left.unfinished:
+    elif exercise in left.unfinished:
+        console.print("  It gets no points as it is.", style=NOTICE)
+    else:
         left.unchecked.append(exercise)
         console.print("  This program has not been checked.", style=NOTICE)
 
@@ -207,6 +227,14 @@ def _flaw(path: Path, submission: Submission) -> str:
     return f"Python cannot run {path}: {error}" if error else ""
 
 
+def _is_better(old: Path, work: Submission, new: Submission, flaw: str) -> bool:
+    """Return whether an earlier program may get points and the new one cannot, or passed more visible checks."""
+    if flaw:
+        return not _flaw(old, work)
+    before, now = last_check_of(work.fingerprint, FILE), last_check_of(new.fingerprint, FILE)
+    return before is not None and before.passed > (now.passed if now else 0)
+
+
 def _unsaved_program(path: Path, submission: Submission) -> str:
     """Return the file that a cell wrote after its notebook was saved, if it holds another program; else ""."""
     if _target(path, submission.exercise, path.parent).suffix != ".ipynb":
@@ -266,5 +294,5 @@ def _saved(path: Path) -> str:
 
 def _last_check(submission: Submission) -> str:
     """Return how the last self-check of this program ended; "" if there was none."""
-    last = last_check_of(submission.fingerprint)
+    last = last_check_of(submission.fingerprint, FILE)
     return f"{last.passed} of {last.total} visible checks passed" if last else ""

@@ -59,9 +59,8 @@ def wait_until(
     with log.listening(hopeless.note), notice(f"This waits up to {timeout:g} s for: {what}.{lies}"):
         if becomes_true(is_over, timeout) and not hopeless.found:
             return
-    waited = "never, as things are" if hopeless.found else f"not within {timeout:g} s"
-    last = seen() if seen else ""
-    message = f"{what}: {waited}" + (f", but {last!r}" if last != "" else "")
+    waited = "not so, and waiting longer changes nothing" if hopeless.found else f"not within {timeout:g} s"
+    message = f"{what}: {waited}" + (f", but {seen() or 'an empty text'!r}" if seen else "")
     if fell := topics.fell_at():
         when = f"{abs(fell - began):.1f} s {'after' if fell > began else 'before'} this wait began"
         message += f". The robot lies: it fell {when}. lab.restart_robot() sets it up again."

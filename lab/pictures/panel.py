@@ -30,7 +30,7 @@ _STYLE = f"""<style>
 </style>"""
 _ENDED = (
     "This picture no longer moves: the notebook's kernel has ended, and its robot with it, or the notebook is closed. "
-    "Open the notebook and run the cell with lab.start_robot()."
+    "Run the notebook's cell with lab.start_robot()."
 )
 
 

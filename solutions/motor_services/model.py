@@ -308,11 +308,11 @@ def power_in_time(call: Call) -> str:
     call.require(
         call.latency <= limit,
         expected=f"a response to {question(call)}, {_which(call)}, within {limit:g} s",
-        observed=f"the response took {call.latency:.1f} s",
+        observed=f"the response took {call.latency:.2f} s",
         help="Publish and return the response: do not sleep in the callback, as other callbacks need its thread."
         if not waits
-        else "The robot does not confirm this request: give the wait for robot_state a timeout, and report it in the "
-        "response.",
+        else "The robot does not confirm this request. If the callback sleeps, remove that, as no other callback runs "
+        "meanwhile; if it awaits robot_state, give that a timeout, and report it in the response.",
     )
     return one_or_several(call)
 

@@ -112,7 +112,8 @@ _SIGNS: dict[str, Remedy] = {
         "02_services#first-file",
     ),
     r"^(ImportError|ModuleNotFoundError)\b": Remedy(
-        "Python found no module, or no name in it, as the file imports it: correct the import, and run its cell again.",
+        "Python found no module, or no name in it, as the file imports it. If a cell writes that module, run the cell "
+        "first; else correct the import, and run its cell again.",
         "02_services#first-file",
     ),
     r"^EOFError: EOF when reading a line": Remedy(

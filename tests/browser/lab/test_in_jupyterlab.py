@@ -169,9 +169,7 @@ def test_the_robot_is_shown_beside_the_notebook_that_has_it(page: Page, folder: 
     expect(panels(page)).to_have_count(1)
     assert page.locator(".course-live").evaluate("panel => panel.scrollWidth <= panel.clientWidth")
 
-    page.get_by_role("menuitem", name="Kernel", exact=True).click()
-    page.get_by_text("Restart Kernel…", exact=True).first.click()
-    page.get_by_role("button", name="Confirm Kernel Restart").click()
+    restart_kernel(page)
     ended = page.get_by_text("This picture no longer moves")
     page.locator(".course-live .jupyter-widgets-disconnected").first.wait_for(state="attached")
     ended.wait_for()
@@ -237,6 +235,12 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
     assert notebook.locator(".jp-CodeCell .cm-lineWrapping").count() > 0
 
 
+def restart_kernel(page: Page) -> None:
+    page.get_by_role("menuitem", name="Kernel", exact=True).click()
+    page.get_by_text("Restart Kernel…", exact=True).first.click()
+    page.get_by_role("button", name="Confirm Kernel Restart").click()
+
+
 def test_arrow_keys_stay_in_their_question_and_escape_leads_back_to_its_cell(
     page: Page, folder: Path, address: str
 ) -> None:
@@ -261,6 +265,18 @@ def test_arrow_keys_stay_in_their_question_and_escape_leads_back_to_its_cell(
     expect(page.locator(".jp-Cell:focus")).to_contain_text("Question 2.")
     page.keyboard.press("ArrowUp")
     expect(page.locator(".jp-Cell.jp-mod-active:visible")).to_contain_text("Question 1.")
+
+    restart_kernel(page)
+    output = page.locator(".jp-OutputArea-output.jupyter-widgets").first
+    output.locator(".jupyter-widgets-disconnected").first.wait_for(state="attached")
+    said, icon = (
+        "output => getComputedStyle(output, '::after').content",
+        "part => getComputedStyle(part, '::before').display",
+    )
+    assert "run this cell again" in output.evaluate(said)
+    assert set(
+        output.locator(".jupyter-widgets-disconnected").evaluate_all(f"parts => parts.map({icon})")
+    ) == {"none"}
 
 
 def test_a_self_check_saves_the_program_that_it_checks(page: Page, folder: Path, address: str) -> None:

@@ -31,6 +31,7 @@ HOUR = 3600.0  # s
 def own_progress_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Keep the submissions of these tests out of this clone's progress file."""
     monkeypatch.setattr(command, "FILE", tmp_path / ".progress.json")
+    monkeypatch.setattr(module, "store_check", lambda *_: None)
 
 
 def notebook(program: str = WORK) -> str:
@@ -259,7 +260,7 @@ def test_submit_writes_what_a_grader_takes_and_says_what_it_holds(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     checked = {fingerprint(WORK): LastCheck(3, 4, "2026-11-27T10:00:00")}
-    monkeypatch.setattr(command, "last_check_of", checked.get)
+    monkeypatch.setattr(command, "last_check_of", lambda program, _: checked.get(program))
     put(tmp_path / "exercises" / NAME, FIRST, f"{NAME} (1).ipynb.txt")
     for name in ("GetBatteryStatus.srv", "NavigateToPose.action"):
         put(tmp_path / "exercises/interfaces", name)
@@ -300,7 +301,7 @@ def test_submit_keeps_a_program_that_runs_when_python_cannot_run_the_new_one(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     checked = {fingerprint(WORK): LastCheck(7, 7, "2026-11-27T10:00:00")}
-    monkeypatch.setattr(command, "last_check_of", checked.get)
+    monkeypatch.setattr(command, "last_check_of", lambda program, _: checked.get(program))
     handed_in = tmp_path / "hand_in" / f"{NAME}.ipynb"
     put(tmp_path, (f"{NAME}.ipynb", notebook("x = 1\ny = (2\n")))
     with pytest.raises(typer.Exit):  # there is nothing else to hand in
@@ -319,11 +320,35 @@ def test_submit_keeps_a_program_that_runs_when_python_cannot_run_the_new_one(
     assert f"it keeps fingerprint {fingerprint(WORK)}: 7 of 7 visible checks passed" in printed
     assert printed.count("Next:") == 1
 
+    checked[fingerprint(OTHER)] = LastCheck(7, 7, "2026-11-27T11:00:00")
     put(tmp_path, (f"{NAME}.ipynb", notebook(OTHER)))
     command.submit([NAME])
-    assert f"another program, fingerprint {fingerprint(WORK)}: 7 of 7" in " ".join(
-        capsys.readouterr().out.split()
-    )
+    assert f"another program, fingerprint {fingerprint(WORK)}: 7 of 7" in printed_by(capsys)
+
+
+def test_a_program_that_passed_fewer_checks_replaces_no_better_one_until_that_is_removed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    checked = {fingerprint(WORK): LastCheck(8, 8, "2026-11-27T10:00:00")}
+    monkeypatch.setattr(command, "last_check_of", lambda program, _: checked.get(program))
+    handed_in = tmp_path / "hand_in" / f"{NAME}.ipynb"
+    put(tmp_path, f"{NAME}.ipynb")
+    command.submit([NAME])
+    put(tmp_path, (f"{NAME}.ipynb", notebook(OTHER)))
+    keeps = f"it keeps fingerprint {fingerprint(WORK)}: 8 of 8 visible checks passed"
+    for now in ("not checked yet", "3 of 8 visible checks passed"):
+        capsys.readouterr()
+        with pytest.raises(typer.Exit):
+            command.submit([NAME])
+        said = printed_by(capsys)
+        assert f"{keeps}; this program: {now}" in said
+        assert said.endswith(f"to hand it in all the same, remove {handed_in}.")
+        assert read_submission(handed_in, NAME).sources == {FIRST: WORK}
+        checked[fingerprint(OTHER)] = LastCheck(3, 8, "2026-11-27T11:00:00")
+    handed_in.unlink()
+    command.submit([NAME])
+    assert read_submission(handed_in, NAME).sources == {FIRST: OTHER}
 
 
 def printed_by(capsys: pytest.CaptureFixture) -> str:

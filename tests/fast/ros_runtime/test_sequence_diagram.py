@@ -29,16 +29,16 @@ def test_a_long_label_is_shown_whole_in_several_lines_above_its_arrow():
     drawing = sequence_svg(
         [Arrow(0.0, "client", "server", "ask"), Arrow(1.0, "server", "client", label)],
         title="A call",
-        participants=("client", "server", "robot"),
+        participants=("client", "server", "walker"),
     )
     texts = [*ElementTree.fromstring(drawing).iter(f"{SVG}text")]
     lines = [text for text in texts if text.text in label]
-    assert len(lines) == 4
+    assert len(lines) == 5
     assert " ".join(line.text for line in lines) == label
     asked = next(text for text in texts if text.text == "ask")
     heights = [int(text.get("y")) for text in (asked, *lines)]
     assert heights == sorted(set(heights)), "no line is on another"
-    assert int(drawing.partition('width="')[2].partition('"')[0]) < 600, "it fits beside the robot's panel"
+    assert int(drawing.partition('width="')[2].partition('"')[0]) < 560, "it fits beside the robot's panel"
 
 
 def test_an_empty_diagram_is_refused():

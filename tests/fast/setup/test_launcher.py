@@ -277,5 +277,5 @@ def test_a_long_step_of_the_set_up_is_named_again(clone: Path) -> None:
         check=True,
     )
     assert re.search(
-        r"^course: still building humanoid_interfaces \(\d s so far\)$", ran.stderr, re.MULTILINE
+        r"^course: still building humanoid_interfaces \(\d s since the beginning\)$", ran.stderr, re.MULTILINE
     )
