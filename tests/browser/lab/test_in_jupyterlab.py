@@ -267,16 +267,11 @@ def test_arrow_keys_stay_in_their_question_and_escape_leads_back_to_its_cell(
     expect(page.locator(".jp-Cell.jp-mod-active:visible")).to_contain_text("Question 1.")
 
     restart_kernel(page)
-    output = page.locator(".jp-OutputArea-output.jupyter-widgets").first
-    output.locator(".jupyter-widgets-disconnected").first.wait_for(state="attached")
-    said, icon = (
-        "output => getComputedStyle(output, '::after').content",
-        "part => getComputedStyle(part, '::before').display",
-    )
-    assert "run this cell again" in output.evaluate(said)
-    assert set(
-        output.locator(".jupyter-widgets-disconnected").evaluate_all(f"parts => parts.map({icon})")
-    ) == {"none"}
+    output = page.locator(".jp-OutputArea-output:has(> .jupyter-widgets-disconnected)").last
+    output.wait_for()
+    assert "run this cell again" in output.evaluate("output => getComputedStyle(output, '::after').content")
+    icons = "parts => parts.map(part => getComputedStyle(part, '::before').display)"
+    assert set(output.locator(".jupyter-widgets-disconnected").evaluate_all(icons)) == {"none"}
 
 
 def test_a_self_check_saves_the_program_that_it_checks(page: Page, folder: Path, address: str) -> None:
