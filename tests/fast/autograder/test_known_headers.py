@@ -22,7 +22,6 @@ NEVER_ALONE = {
     "navigate_to_pose": {"a_new_goal_has_a_time_of_its_own", "tells_each_goal_its_own_story"},
     "patterns": {"answers_everything"},
     "robot_controller": {"copes_with_two_servers", "prints_any_status"},
-    "walk_to": {"turns_the_shorter_way"},
 }
 
 
