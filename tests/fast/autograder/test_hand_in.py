@@ -12,7 +12,9 @@ from nbformat.v4 import new_code_cell, new_notebook, writes
 
 from autograder import self_check as module
 from autograder.classroom.batch.collection import collect, files_of_exercises
+from autograder.engine import starter
 from autograder.engine.hand_in import Names
+from autograder.engine.starter import is_starter, what_is_to_be_written
 from autograder.engine.submission import Submission, UnusableSubmission, read_submission
 from autograder.engine.verdict import CheckVerdict, Grade
 from course_cli import own_work as own_work_module
@@ -447,6 +449,16 @@ def test_submit_says_that_nothing_is_filled_in_and_keeps_earlier_work(
         command.submit([NAME])
     assert f"is not replaced: it keeps fingerprint {fingerprint(WORK)}" in printed_by(capsys)
     assert read_submission(handed_in, NAME).sources == {FIRST: WORK}
+
+
+def test_without_a_release_the_notebook_tells_which_lines_of_its_starter_are_unwritten(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(starter, "released", lambda _: {})  # as in a student's copy
+    given = read_submission(STARTER, NAME)
+    assert "in lines 19 and 26: write your code there" in what_is_to_be_written(given, STARTER)
+    put(tmp_path, f"{NAME}.ipynb")
+    assert not is_starter(given, tmp_path / f"{NAME}.ipynb")
 
 
 def test_submit_says_that_unsaved_edits_are_missing(
