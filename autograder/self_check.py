@@ -150,7 +150,8 @@ def check_with_progress(
 
         loaded = with_robot(robot, loaded)
     submission = read_submission(path, exercise)
-    if is_starter(submission, notebook := path.with_name(f"{exercise}.ipynb")):
+    notebook = (path if path.is_dir() else path.parent) / f"{exercise}.ipynb"
+    if is_starter(submission, notebook):
         console.print(what_is_to_be_written(submission, notebook), style=NOTICE, markup=False)
     recorder = _recorder(loaded) if recordings or page else None
     if robot:
