@@ -19,9 +19,7 @@ TOP = 74
 BOTTOM = 20
 NOTE_GAP = 10  # px between a note's dot and its text
 LETTER_WIDTH = 8  # px, of the widest letter
-LINE_LENGTH = (
-    20  # characters; a longer label gets more lines, so that three lanes fit beside the robot's panel
-)
+LINE_LENGTH = 20  # characters; a longer label gets more lines: three lanes fit beside the robot's panel
 LINE_HEIGHT = 15  # px
 COLOURS = {"request": "#1f5fa8", "answer": "#2c7a3f", "message": "#595959"}
 DASHES = {"request": "", "answer": ' stroke-dasharray="7 4"', "message": ' stroke-dasharray="2 3"'}

@@ -18,9 +18,7 @@ from ros_runtime.record.event import Event
 from ros_runtime.record.event_log import EventLog
 
 DEFAULT_CLIENT = "client"  # the name of the client that cancels a goal, unless another one is given
-LATE_SHARE = (
-    0.8  # of the timeout; then the server's stacks are read, before a sleep as long as the timeout ends
-)
+LATE_SHARE = 0.8  # of the timeout; then the server's stacks are read, as a sleep may end with the timeout
 UNKNOWN_GOAL = "unknown goal"  # for `Reading.admits`: a goal that this client has not sent
 
 
