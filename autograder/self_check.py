@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.text import Text
 
 from autograder.authoring.checks import Check
+from autograder.authoring.diagnosis.service_callback import with_callback
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import Exercise, file_names, load_exercise
 from autograder.engine.grading import GradingOptions, Watcher, grade
@@ -166,6 +167,7 @@ def check_with_progress(
     with RunningLine(console, loaded.checks, in_notebook=table is not None) as line:
 
         def report(verdict: CheckVerdict) -> None:
+            verdict = replace(verdict, help=with_callback(verdict.help, submission.sources))
             line.note(verdict)
             if table:
                 table.add(verdict)

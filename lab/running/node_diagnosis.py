@@ -15,10 +15,10 @@ from autograder.authoring.diagnosis.connections import why_no_command_arrives, w
 from autograder.authoring.diagnosis.exit_diagnosis import (
     remedy_for_a_traceback,
     remedy_for_the_end,
-    unanswered_service,
 )
 from autograder.authoring.diagnosis.goal_diagnosis import why_no_result, why_rclpy_aborted
 from autograder.authoring.diagnosis.readiness import require_ready
+from autograder.authoring.diagnosis.service_callback import callback_of, syntax_tree, with_callback
 from autograder.authoring.diagnosis.stack_location import where_it_waited
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
@@ -61,7 +61,7 @@ def what_nodes_lack(nodes: Iterable[StudentNode]) -> str:
 def has_no_answer_yet(nodes: Iterable[StudentNode], service: str) -> bool:
     """Whether the node that offers a service has a callback for it in which nothing is written yet."""
     server = server_of(nodes, service)
-    callback = _callback_of(service, server.file)[0] if server else None
+    callback = callback_of(service, syntax_tree(_text(server.file))) if server else None
     if server is None or callback is None or not all(isinstance(each, ast.Return) for each in callback.body):
         return False
     return any(
@@ -100,8 +100,7 @@ def how_it_ended(node: StudentNode) -> str:
     """Return the exit status of a node that ended with an error, the error, and what to do."""
     run = _record(node)
     help = remedy_for_the_end(run, ev.NodeExited(returncode=node.exit_status or 0)).help
-    if "service callback of" in help:
-        help += _on_the_callback(unanswered_service(run), node.file)
+    help = with_callback(help, {node.file.name: _text(node.file)})
     return f"with exit status {node.exit_status}: {run.last_words}. {_with_code(help, node)}"
 
 
@@ -165,8 +164,7 @@ def _has_failed(node: StudentNode) -> bool:
 
 def _program(file: Path) -> tuple[Submission, Path]:
     """Return a node's program, and the notebook beside it that may have written it."""
-    text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
-    return Submission(file.stem, "", {file.name: text}), file.with_suffix(".ipynb")
+    return Submission(file.stem, "", {file.name: _text(file)}), file.with_suffix(".ipynb")
 
 
 def _missing_connections(node: StudentNode) -> Iterator[str]:
@@ -265,32 +263,17 @@ def _imported_messages(file: Path) -> set[str]:
     """Return the message types that a file imports, such as "sensor_msgs/msg/BatteryState"."""
     return {
         f"{each.module.removesuffix('.msg')}/msg/{name.name}"
-        for each in ast.walk(_syntax_tree(file))
+        for each in ast.walk(syntax_tree(_text(file)))
         if isinstance(each, ast.ImportFrom) and each.module and each.module.endswith(".msg")
         for name in each.names
     }
-
-
-def _callback_of(service: str, file: Path) -> tuple[ast.FunctionDef | ast.AsyncFunctionDef | None, bool]:
-    """Return the function in a file that is the callback of a service, and whether it returns a value."""
-    tree = _syntax_tree(file)
-    functions = {
-        each.name: each for each in ast.walk(tree) if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef)
-    }
-    for call in ast.walk(tree):
-        if isinstance(call, ast.Call) and ast.unparse(call.func).endswith("create_service"):
-            names = [ast.unparse(argument).rpartition(".")[2] for argument in call.args]
-            if repr(service) in names and (callback := functions.get(names[-1])):
-                returns = any(isinstance(each, ast.Return) and each.value for each in ast.walk(callback))
-                return callback, returns
-    return None, False
 
 
 def _why_no_answer(run: Transcript, node: StudentNode) -> str:
     """Return why a node gives no answer; where it was blocked, also the innermost `while` loop around that line."""
     help, place = remedy_for_no_answer(run).help, where_it_waited(run)
     if place:
-        nodes = ast.walk(_syntax_tree(node.file.with_name(place.file)))
+        nodes = ast.walk(syntax_tree(_text(node.file.with_name(place.file))))
         loops = [each for each in nodes if isinstance(each, ast.While)]
         around = [each.lineno for each in loops if each.lineno < place.line <= (each.end_lineno or 0)]
         if around:
@@ -298,29 +281,16 @@ def _why_no_answer(run: Transcript, node: StudentNode) -> str:
     return _with_code(help, node)
 
 
-def _on_the_callback(service: str, file: Path) -> str:
-    """Return which function of a file is the callback of a service, and whether it returns a value; "" if unknown."""
-    callback, returns = _callback_of(service, file)
-    if callback is None:
-        return ""
-    so = "" if returns else ", which returns no value, that is None"
-    return f" The callback is {callback.name}() in line {callback.lineno} of {file.name}{so}."
-
-
-def _syntax_tree(file: Path) -> ast.Module:
-    """Return the syntax tree of a file; an empty one if it was changed since its program was started, and is broken."""
-    try:
-        return ast.parse(file.read_bytes())
-    except (OSError, SyntaxError):
-        return ast.Module(body=[], type_ignores=[])
+def _text(file: Path) -> str:
+    """Return the text of a node's file; "" if it has been removed."""
+    return file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
 
 
 def _with_code(advice: str, node: StudentNode) -> str:
     """Return advice that quotes the line of the student's file that it names."""
 
     def quoted(place: re.Match[str]) -> str:
-        file = node.file.with_name(place[2])
-        lines = file.read_text(encoding="utf-8", errors="replace").splitlines() if file.is_file() else []
+        lines = _text(node.file.with_name(place[2])).splitlines()
         line = lines[int(place[1]) - 1].strip() if int(place[1]) <= len(lines) else ""
         return f"{place[0]} (`{line}`)" if line else place[0]
 

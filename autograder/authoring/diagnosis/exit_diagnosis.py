@@ -155,7 +155,7 @@ def is_not_python(run: Record) -> bool:
 
 def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:
     """Return what to do about a program that ended by itself, or by an exception."""
-    service = unanswered_service(run)
+    service = _unanswered_service(run)
     output = run.output("stderr")
     if exited.returncode and (remedy := remedy_for_a_traceback(output, service)):
         return remedy
@@ -227,7 +227,7 @@ def _last_traceback(output: str) -> str:
     return output.rpartition("Traceback (most recent call last):")[2]
 
 
-def unanswered_service(run: Record) -> str:
+def _unanswered_service(run: Record) -> str:
     """Return the service of the first request that got no answer, '' if there is none."""
     answered = {answer.call for answer in run.all(ev.ServiceAnswered)}
     return next((asked.service for asked in run.all(ev.ServiceCalled) if asked.call not in answered), "")

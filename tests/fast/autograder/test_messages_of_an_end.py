@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 from sensor_msgs.msg import BatteryState
 
+from autograder.authoring.diagnosis.service_callback import with_callback
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.requirements.standard import exits_with_status_0
 from records import answered, asked, failure_of, given_up, run_of, said, stack
@@ -126,3 +127,23 @@ def test_too_much_memory_points_to_the_lesson_on_what_grows() -> None:
     failure = failure_of(lambda: run_of(asked(), killed).call("first").response)
     assert "keep only the last" in failure.help
     assert failure.see == "03b_clients_in_bad_company#leak-why"
+
+
+@pytest.mark.parametrize(
+    ("last", "said"),
+    [
+        ("response.message = 'up'", "line 2 of status.py, returned nothing. End"),
+        ("return None", "line 2 of status.py, returned nothing, or something other than the response. End"),
+    ],
+)
+def test_self_check_names_the_callback_that_returns_nothing(last, said):
+    program = f"class Status(Node):\n    def tell(self, request, response):\n        {last}\n"
+    program += "    def __init__(self):\n        self.create_service(Trigger, 'get_status', self.tell)\n"
+    advice = (
+        "Your service callback of get_status returned nothing, or something other than the response. End it."
+    )
+
+    assert f"Your service callback of get_status, tell() in {said} it." in with_callback(
+        advice, {"status.py": program}
+    )
+    assert with_callback(advice, {"status.py": "(" * 1000}) == advice

@@ -67,12 +67,11 @@ def run(
     [
         (
             "response.message = 'up'",
-            "status.py has ended with exit status 1: TypeError. Your service callback of get_status returned nothing, "
-            "or something other than the response. End every branch with `return response`. The callback is "
-            "on_request() in line 17 of status.py (`def on_request(self, request, response):`), which returns no "
-            "value, that is None.",
+            "status.py has ended with exit status 1: TypeError. Your service callback of get_status, on_request() in "
+            "line 17 of status.py (`def on_request(self, request, response):`), returned nothing. End every branch "
+            "with `return response`.",
         ),
-        ("return True", "The callback is on_request() in line 17 of status.py (`def on_request("),
+        ("return True", "request, response):`), returned nothing, or something other than the response."),
         (
             "time.sleep(60)\nreturn response",
             "It was blocked in line 18 of status.py (`time.sleep(60)`), in on_request(). A callback may not wait",
