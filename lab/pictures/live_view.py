@@ -25,6 +25,7 @@ MAX_FRAME_RATE = 12.0  # Hz
 MAX_DRAWING_SHARE = 0.4  # of the time; the rest is left for the notebook's other threads
 FIRST_FRAME_TIMEOUT = 20.0  # s
 PANEL_SIZE = 360, 480  # px, a narrow panel is higher than wide
+NO_MESSAGE = "No message comes from the robot. If it was stopped, lab.start_robot() starts it."
 SEEN_MOTION = 1e-4  # m and rad; a robot that moves less is not drawn again
 
 _running: _LiveView | None = None
@@ -141,13 +142,14 @@ class _LiveView:
         drawn = np.full(body.model.nq, np.inf)
         while not self._stop.is_set() and (topics.scene(), topics.robot()) == (body.scene, body.body.name):
             began = time.monotonic()
-            moved = False
+            moved, has_robot = False, True
             try:
                 set_current_posture(body)
                 text = topics.whereabouts()  # of the same moment as the picture
                 moved = bool(abs(body.data.qpos - drawn).max() > SEEN_MOTION)
-            except NoRobotError as error:  # the robot may be started again
-                text = "The robot is starting." if topics.is_starting() else str(error)
+            except NoRobotError:  # the robot may be started again
+                has_robot = False
+                text = "The robot is starting." if topics.is_starting() else NO_MESSAGE
                 if self.panel and robot_of_another_notebook():
                     self._stop.set()
             if moved:
@@ -155,7 +157,7 @@ class _LiveView:
                 self.widget.value = _jpeg(view.picture(self.camera))
             self.widget.tooltip = f"The robot: {text}"
             if self.panel:
-                self.panel.write(text)
+                self.panel.write(text, is_live=has_robot)
             self._begun.set()
             spent = time.monotonic() - began
             self._stop.wait(max(1 / MAX_FRAME_RATE - spent, spent * (1 / MAX_DRAWING_SHARE - 1)))

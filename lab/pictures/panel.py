@@ -23,7 +23,7 @@ _STYLE = f"""<style>
 .course-live .widget-html-content {{ padding: 0 4px; white-space: normal; overflow-wrap: anywhere; line-height: 1.4; }}
 .course-live p {{ margin: 0.3em 0; }}
 .course-live .course-ended {{ visibility: hidden; animation: course-ended 0s {SILENCE}s forwards; font-weight: bold; }}
-.course-live img.jupyter-widgets-disconnected {{ opacity: 0.4; }}
+.course-live img.jupyter-widgets-disconnected, .course-live.course-still img {{ opacity: 0.4; }}
 .course-live.jupyter-widgets-disconnected::before, .course-live .jupyter-widgets-disconnected::before
 {{ display: none; }}
 @keyframes course-ended {{ to {{ visibility: visible; }} }}
@@ -57,8 +57,12 @@ class Panel:
         self._sidecar = Sidecar(title=TITLE)
         self._sidecar.append_display_data(self._box)
 
-    def write(self, text: str) -> None:
-        """Show a line of text below the picture, and whose robot it is; show the same text at most once a second."""
+    def write(self, text: str, *, is_live: bool = True) -> None:
+        """Show a line of text below the picture, and whose robot it is; show the same text at most once a second.
+
+        A picture that is not live is dimmed.
+        """
+        (self._box.remove_class if is_live else self._box.add_class)("course-still")
         now = time.monotonic()
         if text != self._written or now >= self._next_beat:
             self._written, self._next_beat = text, now + BEAT_PERIOD

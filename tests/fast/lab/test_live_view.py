@@ -110,14 +110,19 @@ def test_a_robot_in_another_scene_is_drawn_in_it(robot: Robot) -> None:
     wait_until(lambda: robot.drawn[-1] == ("table", 0.7))
 
 
-def test_the_panel_says_that_no_message_comes_and_goes_on_with_the_next_robot(robot: Robot) -> None:
+def test_the_panel_says_that_no_message_comes_dims_its_picture_and_goes_on_with_the_next_robot(
+    robot: Robot,
+) -> None:
     view = watched()
     robot.starting, robot.error = True, NoRobotError("no message arrived")
     wait_until(lambda: "The robot is starting." in text(view))
     robot.starting = False
-    wait_until(lambda: "no message arrived" in text(view))
+    wait_until(lambda: "No message comes from the robot." in text(view))
+    assert view.panel
+    assert "course-still" in view.panel._box._dom_classes
     robot.error = None
     wait_until(lambda: "OFF at x" in text(view))
+    assert "course-still" not in view.panel._box._dom_classes
 
 
 def test_the_panel_closes_when_another_notebook_has_the_robot_and_opens_when_it_is_back(robot: Robot) -> None:
