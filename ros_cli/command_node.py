@@ -22,7 +22,7 @@ from rclpy.topic_or_service_is_hidden import topic_or_service_is_hidden
 
 from ros_cli.errors import print_message
 from ros_runtime.notebook_domains import expected_nodes
-from ros_runtime.reachability import wait_until_reachable
+from ros_runtime.reachability import UNKNOWN_NODE, wait_until_reachable
 
 SPIN_TIME = 0.5  # s, as in ros2cli
 # Multiples of the spin time to wait while the wanted entity is missing: in an empty graph 5 s, because Fast DDS
@@ -33,7 +33,6 @@ NOTICE_AFTER = 0.5  # s without the wanted entity, after which a line names it
 DISCOVERY_LIMIT_FACTOR = 16  # multiple of the spin time; then discovery ends although the graph changes
 QUERY_PERIOD = 0.02  # s between two queries of the graph, because rclpy does not report its changes
 ROSOUT = "/rosout"  # a topic that every node publishes
-UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet
 
 
 class _Graph(NamedTuple):

@@ -10,6 +10,7 @@ from rcl_interfaces.srv import ListParameters
 from rclpy.client import Client
 from rclpy.node import Node
 
+UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet
 ANSWER_TIMEOUT = 0.1  # s to wait for an answer before the next request
 
 

@@ -31,29 +31,28 @@ class LastCheck:
 
 def last_checks(file: Path = FILE) -> dict[str, LastCheck]:
     """Return the last self-check of each exercise that has one; damaged entries are left out."""
-    checks = {}
-    for exercise, entry in entries_of(file, KIND).items():
-        with contextlib.suppress(TypeError):
-            checks[exercise] = LastCheck(**entry)
-    return checks
+    return _stored(file, KIND)
 
 
 def last_check_of(program: str, file: Path = FILE) -> LastCheck | None:
     """Return the last self-check of the program with this fingerprint; None if there is none."""
-    entry = entries_of(file, PROGRAMS).get(program)
-    with contextlib.suppress(TypeError):
-        return LastCheck(**entry) if entry else None
-    return None
+    return _stored(file, PROGRAMS).get(program)
+
+
+def _stored(file: Path, kind: str) -> dict[str, LastCheck]:
+    checks = {}
+    for key, entry in entries_of(file, kind).items():
+        with contextlib.suppress(TypeError):
+            checks[key] = LastCheck(**entry)
+    return checks
 
 
 def store_check(exercise: str, passed: int, total: int, program: str = "", file: Path = FILE) -> None:
     """Store a self-check of one of the course's exercises; does nothing if the file cannot be written."""
     if not (file.parent / exercise).is_dir():  # an exercise of another course
         return
-    check = LastCheck(passed, total, datetime.now().isoformat(timespec="seconds"), program)
-    _store(file, KIND, exercise, asdict(check))
-    if program:
-        _store(file, PROGRAMS, program, asdict(check))
+    check = asdict(LastCheck(passed, total, datetime.now().isoformat(timespec="seconds"), program))
+    _store(file, {KIND: {exercise: check}, PROGRAMS: {program: check} if program else {}})
 
 
 def was_submitted(path: Path, file: Path = FILE) -> bool:
@@ -63,7 +62,7 @@ def was_submitted(path: Path, file: Path = FILE) -> bool:
 
 def store_submitted(path: Path, file: Path = FILE) -> None:
     """Store that `course submit` wrote a file; does nothing if that cannot be stored."""
-    _store(file, SUBMITTED, _from_here(path, file), _digest(path))
+    _store(file, {SUBMITTED: {_from_here(path, file): _digest(path)}})
 
 
 def _from_here(path: Path, file: Path) -> str:
@@ -74,9 +73,9 @@ def _digest(path: Path) -> str:
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-def _store(file: Path, kind: str, key: str, value: Any) -> None:
+def _store(file: Path, entries: dict[str, dict[str, Any]]) -> None:
     content = read_progress_file(file)
-    content[kind] = {**entries_of(file, kind), key: value}
+    content |= {kind: entries_of(file, kind) | new for kind, new in entries.items() if new}
     with contextlib.suppress(OSError):
         file.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 

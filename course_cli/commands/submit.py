@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-import warnings
 import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -15,15 +14,22 @@ from typing import Annotated
 import typer
 
 from autograder.engine.exercise import essay_names, file_names
-from autograder.engine.starter import is_starter
 from autograder.engine.submission import Submission, UnusableSubmission, read_submission
 from autograder.hand_in_notice import hidden_checks_notice
 from autograder.report.console import NOTICE, LineConsole
 from course_cli.options import CourseOption
 from course_cli.own_work import own_work
+from course_cli.reasons_not_to_submit import (
+    flaw_of,
+    in_words,
+    is_better,
+    last_check,
+    syntax_error,
+    unsaved_program,
+)
 from ros_runtime.course_error import COMMAND_FAILED
 from ros_runtime.project import WORK
-from ros_runtime.self_checks import FILE, last_check_of, store_submitted, was_submitted
+from ros_runtime.self_checks import FILE, store_submitted, was_submitted
 from ros_runtime.terminal import as_typed
 
 
@@ -60,24 +66,24 @@ def submit(
         if out.resolve() == (path if path.is_dir() else path.parent).resolve():
             raise typer.BadParameter(f"{out} holds your own {path.name}: give another folder as --out")
         submission = read_submission(path, exercise)
-        unsaved = _unsaved_program(path, submission)
+        unsaved = unsaved_program(path, submission)
         for line in left_aside:
             if not (unsaved and line.startswith(f"{unsaved} ")):  # which is said below
                 console.print(f"left aside: {line}", style=NOTICE, markup=False)
         earlier = _earlier(exercise, out)
-        if flaw := _flaw(path, submission):
+        if flaw := flaw_of(path, submission):
             left.unfinished.append(exercise)
             console.print(flaw, style=NOTICE, markup=False)
         better = {
-            old: work for old, work in earlier.items() if work and _is_better(old, work, submission, flaw)
+            old: work for old, work in earlier.items() if work and is_better(old, work, submission, flaw)
         }
         for old, work in better.items():
             left.worse += [] if flaw else [old]
-            now = "" if flaw else f"; this program: {_last_check(submission) or 'not checked yet'}"
+            now = "" if flaw else f"; this program: {last_check(submission) or 'not checked yet'}"
             console.print(
-                f"  {old} is not replaced: it keeps {_in_words(work)}{now}", style=NOTICE, markup=False
+                f"  {old} is not replaced: it keeps {in_words(work)}{now}", style=NOTICE, markup=False
             )
-        if better or (flaw and not _syntax_error(submission)):
+        if better or (flaw and not syntax_error(submission)):
             continue
         _write(console, path, submission, out, earlier, left)
         if unsaved:
@@ -159,7 +165,7 @@ def _write(
     store_submitted(target, FILE)
     if exercise in essay_names():
         console.print("  A person marks it.")
-    elif checked := _last_check(submission):
+    elif checked := last_check(submission):
         console.print(f"  Last self-check of this program: {checked}. {hidden_checks_notice(exercise)}")
     elif exercise in left.unfinished:
         console.print("  It gets no points as it is.", style=NOTICE)
@@ -172,14 +178,6 @@ def _default_folder() -> Path:
     """Return hand_in/ at the top of the student's course, also for a cell, which runs in its notebook's folder."""
     here = Path.cwd()
     return (WORK if here.is_relative_to(WORK.resolve()) else here) / "hand_in"
-
-
-def _target(path: Path, exercise: str, out: Path) -> Path:
-    """Return the file to write: under the name that the grader looks for, or a zip file for several files."""
-    if path.is_dir():
-        return out / f"{exercise}.zip"
-    is_notebook = ".ipynb" in map(str.lower, path.suffixes)
-    return out / (f"{exercise}.ipynb" if is_notebook else file_names(exercise)[0])
 
 
 def _earlier(exercise: str, out: Path) -> dict[Path, Submission | None]:
@@ -209,64 +207,18 @@ def _replaced(old: Path, work: Submission | None, target: Path, new: Submission)
     words = "a file that cannot be read"
     if work:
         is_same = work.fingerprint == new.fingerprint
-        words = "the same program" if is_same else f"another program, {_in_words(work)}"
+        words = "the same program" if is_same else f"another program, {in_words(work)}"
         if is_same and old == target:
             return ""
     return words if old == target else f"{old.name}: {words}"
 
 
-def _flaw(path: Path, submission: Submission) -> str:
-    """Return why a program can get no points: nothing is filled in, or Python cannot run it; "" if it may."""
-    notebook = WORK / "exercises" / submission.exercise / f"{submission.exercise}.ipynb"
-    if is_starter(submission, notebook, path):
-        return (
-            f"{path} is the starter as it was given out, which gets no points: write your code below "
-            "# YOUR CODE HERE, save it with Ctrl+S, and run its cell"
-        )
-    error = _syntax_error(submission)
-    return f"Python cannot run {path}: {error}" if error else ""
-
-
-def _is_better(old: Path, work: Submission, new: Submission, flaw: str) -> bool:
-    """Return whether an earlier program may get points and the new one cannot, or passed more visible checks."""
-    if flaw:
-        return not _flaw(old, work)
-    before, now = last_check_of(work.fingerprint, FILE), last_check_of(new.fingerprint, FILE)
-    return before is not None and before.passed > (now.passed if now else 0)
-
-
-def _unsaved_program(path: Path, submission: Submission) -> str:
-    """Return the file that a cell wrote after its notebook was saved, if it holds another program; else ""."""
-    if _target(path, submission.exercise, path.parent).suffix != ".ipynb":
-        return ""
-    saved = path.stat().st_mtime
-    for name, text in submission.sources.items():
-        written = path.with_name(name)
-        is_newer = written.is_file() and written.stat().st_mtime > saved
-        if is_newer and written.read_text(encoding="utf-8", errors="replace").strip() != text.strip():
-            return name
-    return ""
-
-
-def _syntax_error(submission: Submission) -> str:
-    """Return why Python cannot run a program, and in which line; "" if it can."""
-    for name, text in submission.sources.items():
-        try:
-            if name.endswith(".py"):
-                with warnings.catch_warnings():
-                    warnings.simplefilter("ignore")
-                    compile(text, name, "exec", dont_inherit=True)
-        except SyntaxError as error:
-            return f"line {error.lineno} of {name}: {error.msg}"
-        except (MemoryError, RecursionError):
-            return f"an expression in {name} is nested too deeply"
-    return ""
-
-
-def _in_words(submission: Submission) -> str:
-    """Return a program's fingerprint and, if it was checked, how the check ended."""
-    checked = _last_check(submission)
-    return f"fingerprint {submission.fingerprint}" + (f": {checked}" if checked else "")
+def _target(path: Path, exercise: str, out: Path) -> Path:
+    """Return the file to write: under the name that the grader looks for, or a zip file for several files."""
+    if path.is_dir():
+        return out / f"{exercise}.zip"
+    is_notebook = ".ipynb" in map(str.lower, path.suffixes)
+    return out / (f"{exercise}.ipynb" if is_notebook else file_names(exercise)[0])
 
 
 def _copy(path: Path, exercise: str, target: Path) -> None:
@@ -290,9 +242,3 @@ def _saved(path: Path) -> str:
     files = [*path.iterdir()] if path.is_dir() else [path]
     newest = max(file.stat().st_mtime for file in files)
     return datetime.fromtimestamp(newest).strftime("%Y-%m-%d %H:%M:%S")
-
-
-def _last_check(submission: Submission) -> str:
-    """Return how the last self-check of this program ended; "" if there was none."""
-    last = last_check_of(submission.fingerprint, FILE)
-    return f"{last.passed} of {last.total} visible checks passed" if last else ""

@@ -26,7 +26,6 @@ from ros_runtime.ros_domain import NoDomainLeft, ReservedDomain, loopback_variab
 
 NAMESPACE = "/robot"
 ROBOT_NODE = f"{NAMESPACE}/humanoid"
-NOT_YET_KNOWN = "_NODE_NAME_UNKNOWN_"  # rmw's name for a node that it has discovered but not identified yet
 STANDARD_SERVICES = (
     "describe_parameters",
     "get_parameter_types",

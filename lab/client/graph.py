@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from rclpy.qos import DurabilityPolicy, QoSCompatibility, QoSProfile, ReliabilityPolicy, qos_check_compatible
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from lab.client.connection import NOT_YET_KNOWN, connection
+from lab.client.connection import connection
 from lab.errors import LabError
+from ros_runtime.reachability import UNKNOWN_NODE
 
 STANDARD_TOPICS = ("/parameter_events", "/rosout")
 HIDDEN = "_"  # prefix of hidden nodes, such as those of ros2 commands
@@ -99,7 +100,7 @@ def nodes_in_graph() -> list[str]:
     return sorted(
         _full_name(namespace, name)
         for name, namespace in connection().node.get_node_names_and_namespaces()
-        if name != NOT_YET_KNOWN and not name.startswith(HIDDEN)
+        if name != UNKNOWN_NODE and not name.startswith(HIDDEN)
     )
 
 

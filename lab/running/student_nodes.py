@@ -6,7 +6,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from lab.client.connection import NAMESPACE, NOT_YET_KNOWN, connection
+from lab.client.connection import NAMESPACE, connection
 from lab.client.interaction_log import log
 from lab.client.waiting import becomes_true
 from lab.errors import LabError, NodeEndedError
@@ -14,7 +14,7 @@ from lab.notices import notice
 from lab.running.node_diagnosis import how_it_ended, own_output
 from lab.running.processes import Process, ProcessHistory
 from ros_runtime.notebook_domains import expect_node, forget_node
-from ros_runtime.reachability import wait_until_reachable
+from ros_runtime.reachability import UNKNOWN_NODE, wait_until_reachable
 
 START_TIMEOUT = 10.0  # s
 
@@ -160,5 +160,5 @@ def _nodes_seen() -> dict[bytes, str]:
     return {
         bytes(info.endpoint_gid): f"{info.node_namespace.rstrip('/')}/{info.node_name}"
         for info in connection().node.get_publishers_info_by_topic("/rosout")
-        if info.node_name != NOT_YET_KNOWN
+        if info.node_name != UNKNOWN_NODE
     }

@@ -18,6 +18,7 @@ from autograder.engine.starter import is_starter, what_is_to_be_written
 from autograder.engine.submission import Submission, UnusableSubmission, read_submission
 from autograder.engine.verdict import CheckVerdict, Grade
 from course_cli import own_work as own_work_module
+from course_cli import reasons_not_to_submit
 from course_cli.commands import submit as command
 from course_cli.own_work import own_work
 from ros_runtime.project import PROJECT
@@ -262,7 +263,7 @@ def test_submit_writes_what_a_grader_takes_and_says_what_it_holds(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     checked = {fingerprint(WORK): LastCheck(3, 4, "2026-11-27T10:00:00")}
-    monkeypatch.setattr(command, "last_check_of", lambda program, _: checked.get(program))
+    monkeypatch.setattr(reasons_not_to_submit, "last_check_of", lambda program, _: checked.get(program))
     put(tmp_path / "exercises" / NAME, FIRST, f"{NAME} (1).ipynb.txt")
     for name in ("GetBatteryStatus.srv", "NavigateToPose.action"):
         put(tmp_path / "exercises/interfaces", name)
@@ -303,7 +304,7 @@ def test_submit_keeps_a_program_that_runs_when_python_cannot_run_the_new_one(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     checked = {fingerprint(WORK): LastCheck(7, 7, "2026-11-27T10:00:00")}
-    monkeypatch.setattr(command, "last_check_of", lambda program, _: checked.get(program))
+    monkeypatch.setattr(reasons_not_to_submit, "last_check_of", lambda program, _: checked.get(program))
     handed_in = tmp_path / "hand_in" / f"{NAME}.ipynb"
     put(tmp_path, (f"{NAME}.ipynb", notebook("x = 1\ny = (2\n")))
     with pytest.raises(typer.Exit):  # there is nothing else to hand in
@@ -333,7 +334,7 @@ def test_a_program_that_passed_fewer_checks_replaces_no_better_one_until_that_is
 ) -> None:
     monkeypatch.chdir(tmp_path)
     checked = {fingerprint(WORK): LastCheck(8, 8, "2026-11-27T10:00:00")}
-    monkeypatch.setattr(command, "last_check_of", lambda program, _: checked.get(program))
+    monkeypatch.setattr(reasons_not_to_submit, "last_check_of", lambda program, _: checked.get(program))
     handed_in = tmp_path / "hand_in" / f"{NAME}.ipynb"
     put(tmp_path, f"{NAME}.ipynb")
     command.submit([NAME])
