@@ -67,12 +67,12 @@ settles_before_it_succeeds = once_it_rises(
 )
 waits_until_it_is_still = once_it_rises(
     [model.settles, model.succeeds],
-    title="The goal does not succeed while the pelvis moves faster than 0.02 m/s",
+    title="The goal succeeds only once the pelvis has been slower than 0.02 m/s for 0.5 s",
     on=GLIDES,
 )
 waits_until_it_is_upright = once_it_rises(
     [model.settles, model.succeeds],
-    title="The goal does not succeed while the pelvis leans by more than 0.05 rad",
+    title="The goal succeeds only once the pelvis has leaned by less than 0.05 rad for 0.5 s",
     on=LEANS,
 )
 feedback_keeps_its_rate = once_it_accepts(model.feedback_at_5_hz, on=RISE)
