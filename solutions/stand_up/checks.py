@@ -65,12 +65,13 @@ settles_before_it_succeeds = once_it_rises(
     points=2,
     on=RISE,
 )
-waits_until_it_is_still = once_it_rises(
+once_it_settles = partial(check_of, needs=settles_before_it_succeeds)
+waits_until_it_is_still = once_it_settles(
     [model.settles, model.succeeds],
     title="The goal succeeds only once the pelvis has been slower than 0.02 m/s for 0.5 s",
     on=GLIDES,
 )
-waits_until_it_is_upright = once_it_rises(
+waits_until_it_is_upright = once_it_settles(
     [model.settles, model.succeeds],
     title="The goal succeeds only once the pelvis has leaned by less than 0.05 rad for 0.5 s",
     on=LEANS,
