@@ -31,7 +31,12 @@ def check(
     ] = None,
     json_file: Annotated[
         Path | None,
-        typer.Option("--json", metavar="FILE", help="also write the verdicts to this file, for programs"),
+        typer.Option(
+            "--json",
+            metavar="FILE",
+            help="also write the verdicts to this file, for programs",
+            dir_okay=False,
+        ),
     ] = None,
     record: Annotated[
         bool,

@@ -46,7 +46,9 @@ def submit(
     out: Annotated[
         Path | None,
         typer.Option(
-            metavar="FOLDER", help="where to write (default: hand_in/ in the course's folder, or here)"
+            metavar="FOLDER",
+            help="where to write (default: hand_in/ in the course's folder, or here)",
+            file_okay=False,
         ),
     ] = None,
     course: CourseOption = None,

@@ -129,7 +129,7 @@ gets_back_from_anywhere = check_of(
 )
 a_new_goal_has_a_time_of_its_own = in_any_order(
     [model.succeeds, model.tells_its_time],
-    title="navigation_time of a goal that preempts another counts from its own acceptance",
+    title="navigation_time counts from the acceptance of each goal, also after a cancel",
     needs=[checks.new_goal_preempts_the_old, checks.tells_its_time],
     see="08_navigation#conventions",
 )

@@ -59,7 +59,10 @@ def audit(
         ),
     ] = None,
     json_file: Annotated[
-        Path | None, typer.Option("--json", help="write every verdict to this file, as soon as it is known")
+        Path | None,
+        typer.Option(
+            "--json", help="write every verdict to this file, as soon as it is known", dir_okay=False
+        ),
     ] = None,
     resume: Annotated[
         bool,

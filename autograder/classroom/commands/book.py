@@ -21,7 +21,7 @@ WORK = PROJECT / "build" / "book"
 
 
 def book(
-    output: Annotated[Path, typer.Option(help="folder of the site")] = WORK / "site",
+    output: Annotated[Path, typer.Option(help="folder of the site", file_okay=False)] = WORK / "site",
     execute: Annotated[
         bool,
         typer.Option("--execute/--no-execute", help="run the changed chapters, each with its own robot"),

@@ -30,7 +30,9 @@ PlatformName = Enum("PlatformName", {name: name for name in PLATFORMS}, type=str
 def collect(
     download: Annotated[Path, typer.Argument(help="the zip file, or the folder it was unpacked to")],
     platform: Annotated[PlatformName, typer.Option("--from", help="the platform it comes from")],
-    out: Annotated[Path, typer.Option(help="folder for <student>/<exercise>/")] = Path("submitted"),
+    out: Annotated[Path, typer.Option(help="folder for <student>/<exercise>/", file_okay=False)] = Path(
+        "submitted"
+    ),
     exercise: Annotated[
         str,
         typer.Option(

@@ -55,7 +55,8 @@ class DemoNotGraded(DemoFailed):
 
 def demo(
     out: Annotated[
-        Path | None, typer.Option(help="folder of the report (default: demo/ in the clone, or here)")
+        Path | None,
+        typer.Option(help="folder of the report (default: demo/ in the clone, or here)", file_okay=False),
     ] = None,
     jobs: JobsOption = 2,
 ) -> None:

@@ -35,7 +35,8 @@ class Hidden(str, Enum):
 def export(
     format_: Annotated[Format, typer.Option("--format", help="the platform, or csv for one table")],
     out: Annotated[
-        Path | None, typer.Option(help="folder to write to (default: exports/FORMAT beside the grades)")
+        Path | None,
+        typer.Option(help="folder to write to (default: exports/FORMAT beside the grades)", file_okay=False),
     ] = None,
     source: Annotated[
         Path,

@@ -31,7 +31,10 @@ def grade(
         ),
     ] = None,
     out: Annotated[
-        Path, typer.Option(help="folder for grades.json, gradebook.db, batch.json, sources/ and feedback/")
+        Path,
+        typer.Option(
+            help="folder for grades.json, gradebook.db, batch.json, sources/ and feedback/", file_okay=False
+        ),
     ] = Path("graded"),
     jobs: JobsOption = os.cpu_count() or 1,
     resume: Annotated[bool, typer.Option("--resume", help="keep the grades of an earlier run")] = False,
@@ -48,7 +51,7 @@ def grade(
         ),
     ] = False,
     json_file: Annotated[
-        Path | None, typer.Option("--json", help="write all verdicts to this file as well")
+        Path | None, typer.Option("--json", help="write all verdicts to this file as well", dir_okay=False)
     ] = None,
     dask: Annotated[
         str | None,

@@ -23,7 +23,7 @@ def hour(
             help=f"the folder that {VARIABLE} names for the students", exists=True, file_okay=False
         ),
     ],
-    out: Annotated[Path, typer.Option(help="the page")] = Path("lab_hour.html"),
+    out: Annotated[Path, typer.Option(help="the page", dir_okay=False)] = Path("lab_hour.html"),
     places: Annotated[
         bool,
         typer.Option("--places", help="show where students sit, if they wrote it; not for the projector"),

@@ -23,9 +23,9 @@ from course_cli.options import CourseOption, DatesOption
 
 def merge(
     folders: Annotated[list[Path], typer.Argument(metavar="FOLDER...", help="output folders of the shards")],
-    out: Annotated[Path, typer.Option(help="folder for grades.json, gradebook.db and feedback/")] = Path(
-        "graded"
-    ),
+    out: Annotated[
+        Path, typer.Option(help="folder for grades.json, gradebook.db and feedback/", file_okay=False)
+    ] = Path("graded"),
     dates: DatesOption = None,
     course: CourseOption = None,
 ) -> None:

@@ -28,7 +28,10 @@ def gradescope(
         str, typer.Option(help="the assignment's exercise (default: the exercise whose file is uploaded)")
     ] = "",
     out: Annotated[
-        Path | None, typer.Option(metavar="FILE.zip", help="the archive (default: gradescope[_EXERCISE].zip)")
+        Path | None,
+        typer.Option(
+            metavar="FILE.zip", help="the archive (default: gradescope[_EXERCISE].zip)", dir_okay=False
+        ),
     ] = None,
     course: CourseOption = None,
 ) -> None:

@@ -30,9 +30,9 @@ KEPT = ".kept"  # in the output folder: the finished students
 def questions(
     exercise: Annotated[str, typer.Argument(help="the exercise, such as cancellable_walk")],
     submitted: Annotated[Path, typer.Argument(help="the folder of submissions, as `course grade` reads it")],
-    out: Annotated[Path, typer.Option(help="folder for the pages; they go to OUT/EXERCISE")] = Path(
-        "questions"
-    ),
+    out: Annotated[
+        Path, typer.Option(help="folder for the pages; they go to OUT/EXERCISE", file_okay=False)
+    ] = Path("questions"),
     student: Annotated[
         list[str] | None, typer.Option("--student", help="only for this student (can be repeated)")
     ] = None,

@@ -20,7 +20,7 @@ from ros_runtime.project import PROJECT
 
 
 def release(
-    out: Annotated[Path, typer.Option(help="the archive to write")] = Path("students.zip"),
+    out: Annotated[Path, typer.Option(help="the archive to write", dir_okay=False)] = Path("students.zip"),
     exercises: Annotated[
         bool,
         typer.Option(

@@ -35,7 +35,9 @@ def requests(
         ),
     ],
     graded: Annotated[Path, typer.Option(help="the output folder of `course grade`")] = Path("graded"),
-    out: Annotated[Path, typer.Option(help=f"folder for {TABLE} and the evidence")] = Path("requests"),
+    out: Annotated[Path, typer.Option(help=f"folder for {TABLE} and the evidence", file_okay=False)] = Path(
+        "requests"
+    ),
     jobs: JobsOption = os.cpu_count() or 1,
     course: CourseOption = None,
 ) -> None:

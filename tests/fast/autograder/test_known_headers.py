@@ -19,7 +19,6 @@ NEVER_ALONE = {
         "cancels_at_the_start",
         "survives_two_cancels",
     },
-    "navigate_to_pose": {"a_new_goal_has_a_time_of_its_own", "tells_each_goal_its_own_story"},
     "patterns": {"answers_everything"},
     "robot_controller": {"copes_with_two_servers", "prints_any_status"},
 }

@@ -12,15 +12,17 @@ import subprocess
 import sys
 import time
 from importlib.metadata import version
+from inspect import isfunction
 from itertools import pairwise
 from pathlib import Path
+from typing import get_type_hints
 from urllib.error import URLError
 from urllib.request import urlopen
 
 import pytest
 from typer.testing import CliRunner
 
-from course_cli.app import app, load
+from course_cli.app import COMMANDS, app, load
 
 COURSE = Path(sys.executable).with_name("course")
 TIMEOUT = 60.0  # s, for a busy machine
@@ -167,3 +169,21 @@ def test_the_help_shows_no_type_behind_a_flag() -> None:
 def test_a_misspelled_exercise_gets_a_suggestion_and_any_other_name_the_list() -> None:
     assert "there is no exercise 'paterns'; did you mean patterns?" in course("check", "paterns").stdout
     assert "there are arm_architecture, " in course("check", "zzz").stdout
+
+
+def test_what_is_to_be_written_takes_no_path_of_the_other_kind(tmp_path: Path) -> None:
+    """A folder where a file is to be written, and the other way round, is refused before anything is done."""
+    given = {
+        f"{name} --{option}": info
+        for name in COMMANDS
+        if isfunction(load(name))
+        for option, hint in get_type_hints(load(name), include_extras=True).items()
+        for info in getattr(hint, "__metadata__", ())
+        if option in ("out", "output", "json")
+    }
+    assert len(given) > 10
+    assert [option for option, info in given.items() if info.file_okay is info.dir_okay] == []
+
+    refused = course("release", "--out", str(tmp_path), COLUMNS="300")
+    assert refused.returncode == 2
+    assert f"'--out': file '{tmp_path}' is a directory" in refused.stderr
