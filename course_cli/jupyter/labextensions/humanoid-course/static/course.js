@@ -1,6 +1,7 @@
 // What JupyterLab lacks for the course. A prebuilt extension, written by hand: it needs no package of JupyterLab.
 
 const PANEL = "Robot"; // the title that lab/pictures/panel.py gives to it
+const NARROW = 1500; // px; in a narrower window lines of code fit beside the panel only without the file browser
 const OPEN_TIMEOUT = 120; // s, for a chapter on a busy machine
 const LAYOUT_TIMEOUT = 30; // s, from the time at which its heading is there
 const STEADY = 25; // times that a heading was seen at the same place; JupyterLab may still scroll back to the first cell
@@ -18,6 +19,7 @@ const REPLY = /^prediction_\d+\.reply\(\)/m; // the cell after an experiment
 const NEW_TASK = /^(#+ |%%)/; // a heading, or a program to write
 
 let groups = 0; // of radio buttons, so far
+let hasPanel = false;
 
 const pause = () => new Promise((resolve) => setTimeout(resolve, PERIOD));
 
@@ -25,6 +27,8 @@ const pause = () => new Promise((resolve) => setTimeout(resolve, PERIOD));
 function keepNewestPanel(shell) {
   const panels = [...shell.widgets("right")].filter((widget) => widget.title.label === PANEL);
   panels.slice(0, -1).forEach((panel) => panel.dispose());
+  if (panels.length && !hasPanel && window.innerWidth < NARROW) shell.collapseLeft();
+  hasPanel = panels.length > 0;
 }
 
 // ipywidgets gives radio buttons no name, and the browser takes all buttons without a name for one group: an arrow key
