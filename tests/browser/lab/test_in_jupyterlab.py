@@ -146,7 +146,7 @@ def test_the_robot_is_shown_beside_the_notebook_that_has_it(page: Page, folder: 
     shown, text = picture.bounding_box(), page.get_by_label("first.ipynb").bounding_box()
     assert shown
     assert text
-    assert text["width"] > 600
+    assert text["width"] > 900  # the file browser has folded
     assert text["x"] + text["width"] <= shown["x"]
     assert shown["y"] + shown["height"] < 720
 
@@ -156,6 +156,7 @@ def test_the_robot_is_shown_beside_the_notebook_that_has_it(page: Page, folder: 
     page.locator('[data-command="docmanager:save"]').first.click()
     require_saved(page)
     page.locator(".lm-DockPanel .lm-TabBar-tab", has_text="first").locator(".lm-TabBar-tabCloseIcon").click()
+    page.locator('.jp-mod-left [data-id="filebrowser"]').click()
     page.get_by_role("listitem", name="Name: first.ipynb").dblclick()
     page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
     page.get_by_text("STANDING at").wait_for()
