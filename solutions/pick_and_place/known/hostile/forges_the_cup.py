@@ -1,7 +1,7 @@
 """Attack: moves nothing, and publishes poses of hand and cup and a force in the robot's name that say it does.
 Outcome: hand and cup come from the simulator by a pipe of its own; forged topics are nobody's truth.
 Caught by: places_the_cup, feedback_is_measured
-Also fails: refuses_a_far_cup, cancels_before_the_grasp, aborts_when_the_robot_falls
+Also fails: lifts_the_cup, refuses_a_far_cup, cancels_before_the_grasp, aborts_when_the_robot_falls
 """
 
 import time
