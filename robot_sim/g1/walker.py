@@ -98,7 +98,9 @@ class LearnedWalker:
         """
         if isinstance(command, Goal):
             raise ValueError("this robot walks at a velocity; it takes no goal")
-        if self._command is None:
+        if (
+            abs(wrap(self._heading - self._yaw)) > MOST_HEADING_ERROR
+        ):  # it was turned; less is left of its own turn
             self._heading = self._yaw
         self._command = command
         self.stands = self.stands and command is None
@@ -138,14 +140,19 @@ class LearnedWalker:
         data.ctrl[:] = STANCE + ACTION_SCALE * self._action
 
     def _velocity(self) -> tuple[float, float, float]:
-        """Return the velocity to ask for now, and advance the phases of the feet."""
-        if self._command is None:
-            self._phases = None
+        """Return the velocity to ask for now, and advance the phases of the feet; a stop waits for the end of a step.
+
+        Otherwise a program that stops and goes on many times a second would begin the same step over and over.
+        """
+        if self._command is None and self._phases is None:
             return 0.0, 0.0, 0.0
-        vx, vy, wz = self._command
-        advance = 2 * math.pi / STRIDE_TIME / RATE
+        vx, vy, wz = self._command or (0.0, 0.0, 0.0)
         before = np.array([0.0, math.pi]) if self._phases is None else self._phases
+        advance = 2 * math.pi / STRIDE_TIME / RATE
         self._phases = np.remainder(before + advance + math.pi, 2 * math.pi) - math.pi
+        if self._command is None and math.cos(before[0]) * math.cos(self._phases[0]) <= 0.0:
+            self._phases = None  # both feet are on the floor
+            return 0.0, 0.0, 0.0
         self._heading += wz / RATE
         error = clamp(wrap(self._heading - self._yaw), -MOST_HEADING_ERROR, MOST_HEADING_ERROR)
         self._heading = self._yaw + error

@@ -35,6 +35,16 @@ def test_it_keeps_its_heading_and_counts_two_steps_a_second(robot):
     assert robot.steps == pytest.approx(20, abs=2)
 
 
+def test_a_turn_in_short_bursts_adds_up(robot):
+    """Programs that stop within their tolerance and leave it again command a fraction of a second at a time."""
+    for _ in range(20):
+        robot.walk_velocity(0.0, 0.0, 0.1)
+        simulate(robot, 0.3)
+        robot.walk_velocity(0.0, 0.0, 0.0)
+        simulate(robot, 0.4)
+    assert robot.base_pose().yaw == pytest.approx(20 * 0.3 * 0.1, abs=0.1)
+
+
 def test_without_power_all_its_parts_come_to_lie_on_the_floor(robot):
     robot.set_motor_power(False)
     for _ in range(1500):
