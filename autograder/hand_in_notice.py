@@ -46,12 +46,12 @@ def saved_work_warning(exercise: str, program: str, folder: Path = Path()) -> st
     )
 
 
-def next_step(grade: Grade) -> str:
-    """Return what to do after a self-check that was graded."""
+def next_step(grade: Grade, may_be_submitted: bool = True) -> str:
+    """Return what to do after a self-check that was graded; a starter may not be submitted."""
     submit = as_typed(f"submit {grade.exercise}")
     if grade.all_passed:
         return f"Next: hand it in: {submit}"
-    if not any(verdict.status == "passed" for verdict in grade.checks):
+    if not may_be_submitted or not any(verdict.status == "passed" for verdict in grade.checks):
         return "Next: mend what the first failed check names, and check again."
     return (
         f"Next: mend what the first failed check names, and check again; or hand in what you have: {submit}"

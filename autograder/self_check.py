@@ -101,18 +101,19 @@ def self_check(exercise: str, file: str | Path | None = None, *, page: str | Pat
         if warning:
             console.print(warning, style=WARNING, markup=False)  # before the verdicts, which may be long
     result = check_and_keep(console, path, exercise, page=Path(page) if page else None)
-    print_next_step(console, result, "" if file else saved_work_warning(exercise, result.program))
+    print_next_step(console, result, path, "" if file else saved_work_warning(exercise, result.program))
     return SelfCheck(result)
 
 
-def print_next_step(console: Console, grade: Grade, warning: str = "") -> None:
-    """Print which checks come later, and what to do next; a warning replaces that."""
+def print_next_step(console: Console, grade: Grade, path: Path, warning: str = "") -> None:
+    """Print which checks come later, and what to do next with the work at `path`; a warning replaces that."""
     if later := hidden_checks_notice(grade.exercise):
         console.print(later, markup=False)
     if warning:
         console.print(warning, style=WARNING, markup=False)
     elif grade.status == "graded":
-        console.print(next_step(grade), markup=False)
+        may_be_submitted = not is_starter(*_with_notebook(path, grade.exercise))
+        console.print(next_step(grade, may_be_submitted), markup=False)
 
 
 def check_and_keep(console: Console, path: Path, exercise: str, **options: Any) -> Grade:
@@ -150,8 +151,7 @@ def check_with_progress(
         from autograder.other_robot import with_robot
 
         loaded = with_robot(robot, loaded)
-    submission = read_submission(path, exercise)
-    notebook = (path if path.is_dir() else path.parent) / f"{exercise}.ipynb"
+    submission, notebook = _with_notebook(path, exercise)
     if is_starter(submission, notebook):
         console.print(what_is_to_be_written(submission, notebook), style=NOTICE, markup=False)
     recorder = _recorder(loaded) if recordings or page else None
@@ -176,13 +176,15 @@ def check_with_progress(
                 print_verdict(console, verdict)
 
         def on_retry(check: Check) -> None:
-            with line.aside():
-                print_retry(console, check)
+            line.note_retry(check)
+            if not table:
+                with line.aside():
+                    print_retry(console, check)
 
         options = GradingOptions(jobs=jobs, first_alone=True, recorded=bool(recorder or table))
         watcher = Watcher(report, on_retry, on_running=line.show)
         if table:
-            watcher = Watcher(report, on_evidence=table.draw, on_running=line.show)
+            watcher = replace(watcher, on_evidence=table.draw)
         if recorder:
             watcher = replace(watcher, on_evidence=_both(watcher.on_evidence, recorder.add))
         result = grade(submission, loaded, options, watcher, arenas=arenas)
@@ -201,6 +203,12 @@ def check_with_progress(
     if page and recorder and result.status == "graded":
         _write_page(console, page, submission, result, recorder)
     return result
+
+
+def _with_notebook(path: Path, exercise: str) -> tuple[Submission, Path]:
+    """Return the work at a path, and the place of the notebook that may have written it."""
+    folder = path if path.is_dir() else path.parent
+    return read_submission(path, exercise), folder / f"{exercise}.ipynb"
 
 
 def _both(first: OnEvidence, second: OnEvidence) -> OnEvidence:
@@ -225,8 +233,8 @@ def _add_films(table: NotebookTable, exercise: Exercise, grade: Grade) -> None:
 
     films = FailureFilms(exercise, grade)
     filmed = [each for each in grade.checks if each.id in table.evidence and each.robot_time is not None]
-    if filmed:
-        print("The films of failed checks are being drawn, which takes some seconds.")
+    waits = "Drawing the films of failed checks takes some seconds …" if filmed else ""
+    print(waits, end="", flush=True)
     for verdict in filmed:
         words, webp = "", b""
         table.film(verdict.id, "is being drawn …")
@@ -238,6 +246,7 @@ def _add_films(table: NotebookTable, exercise: Exercise, grade: Grade) -> None:
             logging.getLogger(__name__).exception("no film of %s", verdict.id)
         finally:
             table.film(verdict.id, words, webp)
+    print(f"\r{'':<{len(waits)}}\r", end="", flush=True)
 
 
 def _recorder(exercise: Exercise) -> Recorder:

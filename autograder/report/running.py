@@ -23,6 +23,7 @@ class RunningLine:
         self._status = Status("", console=console) if console.is_terminal and not in_notebook else None
         self._shown = ""
         self._judged: set[str] = set()
+        self._retried: set[str] = set()
 
     def __enter__(self) -> RunningLine:
         return self
@@ -51,9 +52,14 @@ class RunningLine:
         """Note that a check has its verdict."""
         self._judged.add(verdict.id)
 
+    def note_retry(self, check: Check) -> None:
+        """Note that a check has failed once, and is retried."""
+        self._retried.add(check.id)
+
     def _title_for(self, scenario: Scenario) -> str:
         checks = [check for check in self._checks if scenario in check.on]
-        return next((check for check in checks if check.id not in self._judged), checks[0]).title
+        shown = next((check for check in checks if check.id not in self._judged), checks[0])
+        return f"{shown.title} (failed once, retrying)" if shown.id in self._retried else shown.title
 
     @contextmanager
     def aside(self) -> Iterator[None]:

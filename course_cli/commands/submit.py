@@ -83,7 +83,9 @@ def submit(
             left.worse += [] if flaw else [old]
             now = "" if flaw else f"; this program: {last_check(submission) or 'not checked yet'}"
             console.print(
-                f"  {old} is not replaced: it keeps {in_words(work)}{now}", style=NOTICE, markup=False
+                f"{path.name} is not handed in; {old} is not replaced: it keeps {in_words(work)}{now}",
+                style=NOTICE,
+                markup=False,
             )
         if better or (flaw and not syntax_error(submission)):
             continue
@@ -127,7 +129,7 @@ class _LeftToDo:
             return f"Next: {complete}save it (Ctrl+S), and type again: {again}"
         if self.worse:
             files = " and ".join(map(str, self.worse))
-            check = as_typed("check EXERCISE")
+            check = " and ".join(as_typed(f"check {path.stem}") for path in self.worse)
             return (
                 f"Next: {check}, and submit again once it passes as many; to hand it in all the same, "
                 f"remove {files}."

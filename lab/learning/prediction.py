@@ -40,6 +40,7 @@ class Prediction:
     def __init__(self, number: int, question: Question) -> None:
         self.number = number
         self.question = question
+        self._has_stopped_the_experiment = False
         self._buttons = question.buttons()
         self._buttons.value = stored_letter("predictions", question)
         self._buttons.observe(lambda change: store_letter("predictions", question, change["new"]), "value")
@@ -68,13 +69,17 @@ class Prediction:
 
         Raises LabError when nothing is chosen.
         """
+        self._has_stopped_the_experiment = self.letter is None
         if self.letter is None:
             raise LabError(self._request())
 
     def reply(self) -> None:
-        """Print the feedback on the choice; without a choice, ask for one."""
+        """Print the feedback on the choice; without a choice, or if only `require()` has run since, ask for more."""
         if self.letter is None:
             print(self._request())
+            return
+        if self._has_stopped_the_experiment:
+            print("Predict first, then run the experiment: its cell has not run since you chose. Run it now.")
             return
         choice = self.question.choice(self.letter)
         print(f"You predicted {self.letter}: {choice.text}")

@@ -23,6 +23,7 @@ from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 MAX_FRAME_RATE = 12.0  # Hz
 MAX_DRAWING_SHARE = 0.4  # of the time; the rest is left for the notebook's other threads
+MESSAGE_TIMEOUT = 1.5  # s
 FIRST_FRAME_TIMEOUT = 20.0  # s
 PANEL_SIZE = 360, 480  # px, a narrow panel is higher than wide
 NO_MESSAGE = "No message comes from the robot. If it was stopped, lab.start_robot() starts it."
@@ -141,9 +142,10 @@ class _LiveView:
         """Draw until the view is stopped, or another robot or scene was started."""
         drawn = np.full(body.model.nq, np.inf)
         while not self._stop.is_set() and (topics.scene(), topics.robot()) == (body.scene, body.body.name):
-            began = time.monotonic()
+            spent = 0.0  # s, on drawing
             moved, has_robot = False, True
             try:
+                topics.latest("odom", MESSAGE_TIMEOUT)
                 set_current_posture(body)
                 text = topics.whereabouts()  # of the same moment as the picture
                 moved = bool(abs(body.data.qpos - drawn).max() > SEEN_MOTION)
@@ -153,13 +155,14 @@ class _LiveView:
                 if self.panel and robot_of_another_notebook():
                     self._stop.set()
             if moved:
+                began = time.monotonic()
                 drawn = body.data.qpos.copy()
                 self.widget.value = _jpeg(view.picture(self.camera))
+                spent = time.monotonic() - began
             self.widget.tooltip = f"The robot: {text}"
             if self.panel:
                 self.panel.write(text, is_live=has_robot)
             self._begun.set()
-            spent = time.monotonic() - began
             self._stop.wait(max(1 / MAX_FRAME_RATE - spent, spent * (1 / MAX_DRAWING_SHARE - 1)))
 
 

@@ -24,6 +24,7 @@ _STYLE = f"""<style>
 .course-live p {{ margin: 0.3em 0; }}
 .course-live .course-ended {{ visibility: hidden; animation: course-ended 0s {SILENCE}s forwards; font-weight: bold; }}
 .course-live img.jupyter-widgets-disconnected, .course-live.course-still img {{ opacity: 0.4; }}
+.course-live .jupyter-widgets-disconnected .course-said {{ visibility: hidden; }}
 .course-live.jupyter-widgets-disconnected::before, .course-live .jupyter-widgets-disconnected::before
 {{ display: none; }}
 @keyframes course-ended {{ to {{ visibility: visible; }} }}
@@ -68,7 +69,8 @@ class Panel:
             self._written, self._next_beat = text, now + BEAT_PERIOD
             # the time makes every text a new one, so that the animation restarts
             ended = f'<p class="course-ended" data-time="{now:.1f}">{_ENDED}</p>'
-            self._text.value = f"{escape(text)}<p>The robot of {escape(self._notebook)}</p>{ended}"
+            said = f'<p class="course-said">{escape(text)}</p>'
+            self._text.value = f"{said}<p>The robot of {escape(self._notebook)}</p>{ended}"
 
     def close(self) -> None:
         """Remove the panel."""

@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from std_srvs.srv import SetBool
 
 from lab.client.connection import NAMESPACE
+from lab.client.formatting import fixed
 from lab.client.graph import topics_in_graph
 from lab.client.services import call
 from lab.client.topics import mode, pose
@@ -84,7 +85,7 @@ def walks_one_metre() -> str:
     _require_running(
         node, {"must be of type 'float'": "a float64 field needs a float: 0.3, not an int", **hints}
     )
-    distance = f"{walked():.2f} m"
+    distance = f"{fixed(walked(), 2)} m"
 
     def expect_a_metre(condition: bool, seen: str, next: str) -> None:
         expect(

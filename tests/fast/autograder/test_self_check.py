@@ -43,12 +43,14 @@ def test_it_is_kept_when_every_check_was_judged(
 
 def test_the_command_keeps_it_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     kept: list[tuple] = []
+    program = tmp_path / "battery_service.py"
+    program.write_text("print()")
     monkeypatch.setattr(
         module, "check_with_progress", lambda *arguments, **options: graded("passed", "failed")
     )
     monkeypatch.setattr(module, "store_check", lambda *entry: kept.append(entry))
     with pytest.raises(typer.Exit) as ended:
-        check("battery_service", tmp_path / "missing.py", json_file=None, jobs=1, course=None)
+        check("battery_service", program, json_file=None, jobs=1, course=None)
     assert ended.value.exit_code == 1
     assert kept == KEPT
 

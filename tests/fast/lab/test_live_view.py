@@ -60,6 +60,7 @@ def robot(monkeypatch: pytest.MonkeyPatch) -> Iterator[Robot]:
         "scene": lambda: robot.scene,
         "robot": lambda: robot.name,
         "is_starting": lambda: robot.starting,
+        "latest": lambda topic, timeout: None,
         "whereabouts": lambda: "OFF at x",
     }
     monkeypatch.setattr(live_view, "topics", SimpleNamespace(**fakes))

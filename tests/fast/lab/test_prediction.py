@@ -123,6 +123,19 @@ def test_the_reply_depends_on_the_choice(capsys: pytest.CaptureFixture[str]) -> 
     )
 
 
+def test_the_reply_waits_for_an_experiment_that_had_no_choice(capsys: pytest.CaptureFixture[str]) -> None:
+    prediction = Prediction(1, EXAMPLE)
+    with pytest.raises(lab.LabError, match="Predict first"):
+        prediction.require()
+    prediction.choose("b")
+    prediction.reply()
+    prediction.require()
+    prediction.reply()
+    first, second, *_ = capsys.readouterr().out.splitlines()
+    assert first.startswith("Predict first, then run the experiment: its cell has not run")
+    assert second == "You predicted b: 4"
+
+
 def test_without_a_choice_the_reply_asks_for_one(capsys: pytest.CaptureFixture[str]) -> None:
     Prediction(1, EXAMPLE).reply()
     assert capsys.readouterr().out.startswith("Predict first: click a or b under Prediction 1")
