@@ -73,7 +73,9 @@ class PatternChoice:
         self._note = ipywidgets.HTML()
         self._buttons = {word: ipywidgets.Button(description=word.capitalize()) for word in ("yes", "no")}
         for word, button in self._buttons.items():
-            button.on_click(lambda _, word=word: self._take(word))
+            button.on_click(
+                lambda _, word=word: self._take(word)
+            )  # never disabled: it would lose the keyboard's focus
         self._restart = ipywidgets.Button(description="Start again")
         self._restart.on_click(lambda _: self.restart())
         self._show()
@@ -114,6 +116,9 @@ class PatternChoice:
         return OTHERWISE if self._answered_no == len(STEPS) else None
 
     def _take(self, word: str) -> None:
+        """Take an answer, unless the pattern is already decided."""
+        if self.pattern:
+            return
         if word == "yes":
             self._decided = True
         else:
@@ -122,8 +127,6 @@ class PatternChoice:
 
     def _show(self) -> None:
         self._note.value = as_status(escape(self.text()))
-        for button in self._buttons.values():
-            button.disabled = self.pattern is not None
 
     def _ipython_display_(self) -> None:
         display(self._panel())
