@@ -213,7 +213,10 @@ def test_ctrl_c_cancels_a_goal_and_its_end_is_printed(
 
 def test_a_rate_is_printed_until_ctrl_c(started: Any) -> None:
     measuring = started("topic", "hz", "/demo/chatter")
-    first, second = measuring.stdout.readline(), measuring.stdout.readline()
+    first = measuring.stdout.readline()
+    if first.startswith("looking for"):  # on a busy machine
+        first = measuring.stdout.readline()
+    second = measuring.stdout.readline()
     assert re.fullmatch(r"average rate: \d+\.\d{3}\n", first)
     assert re.fullmatch(r"\tmin: \S+s max: \S+s std dev: \S+s window: \d+\n", second)
     assert press_ctrl_c(measuring)[0] == signal.SIGINT
