@@ -48,7 +48,8 @@ print(old.is_running, [lab.call("add", AddTwoInts).sum for _ in range(5)])""")
         ),
         (
             "lab.call('add', AddTwoInts, AddTwoInts.Request(a=13))",
-            r"exit status 1: TypeError\. Your service callback of add, add\(\) in line \d+ of adder\.py .* returned nothing.*`return response`",
+            r"exit status 1: TypeError\. Your service callback of add, "
+            r"add\(\) in line \d+ of adder\.py .* returned nothing.*`return response`",
         ),
         ("lab.run_node('broken.py')", r"broken\.py ended at once with exit status 1[\s\S]*no such robot"),
         ("lab.run_node('gone.py')", r"no file gone\.py .*%%writefile gone\.py"),
