@@ -47,7 +47,7 @@ def saved_work_warning(exercise: str, program: str, folder: Path = Path()) -> st
 
 
 def next_step(grade: Grade, may_be_submitted: bool = True) -> str:
-    """Return what to do after a self-check that was graded; a starter may not be submitted."""
+    """Return what to do after a self-check that was graded; a starter is not to be submitted yet."""
     submit = as_typed(f"submit {grade.exercise}")
     if grade.all_passed:
         return f"Next: hand it in: {submit}"

@@ -106,7 +106,7 @@ def self_check(exercise: str, file: str | Path | None = None, *, page: str | Pat
 
 
 def print_next_step(console: Console, grade: Grade, path: Path, warning: str = "") -> None:
-    """Print which checks come later, and what to do next with the work at `path`; a warning replaces that."""
+    """Print which checks come later, and what to do next with the work at `path`; a warning replaces the next step."""
     if later := hidden_checks_notice(grade.exercise):
         console.print(later, markup=False)
     if warning:

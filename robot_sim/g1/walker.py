@@ -98,9 +98,8 @@ class LearnedWalker:
         """
         if isinstance(command, Goal):
             raise ValueError("this robot walks at a velocity; it takes no goal")
-        if (
-            abs(wrap(self._heading - self._yaw)) > MOST_HEADING_ERROR
-        ):  # it was turned; less is left of its own turn
+        # what is left of its own last turn is less: something else has turned it
+        if abs(wrap(self._heading - self._yaw)) > MOST_HEADING_ERROR:
             self._heading = self._yaw
         self._command = command
         self.stands = self.stands and command is None
@@ -140,7 +139,7 @@ class LearnedWalker:
         data.ctrl[:] = STANCE + ACTION_SCALE * self._action
 
     def _velocity(self) -> tuple[float, float, float]:
-        """Return the velocity to ask for now, and advance the phases of the feet; a stop waits for the end of a step.
+        """Return the velocity to ask for now, and advance the phases of the feet; a step is completed before a stop.
 
         Otherwise a program that stops and goes on many times a second would begin the same step over and over.
         """

@@ -21,7 +21,7 @@ def with_callback(help: str, sources: Mapping[str, str]) -> str:
         for name, text in sources.items():
             if callback := callback_of(about[1], syntax_tree(text)):
                 returns = any(isinstance(each, ast.Return) and each.value for each in ast.walk(callback))
-                what = about[2] if returns else ""
+                what = (about[2] or "") if returns else ""
                 return f"{about[1]}, {callback.name}() in line {callback.lineno} of {name}, returned nothing{what}"
         return about[0]
 
