@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import os
 from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import monotonic, sleep
@@ -37,6 +38,7 @@ from ros_runtime.workarounds.jupyterlab_page import save_notebook
 if TYPE_CHECKING:
     from autograder.recording.recorder import Recorder
     from autograder.report.notebook_table import NotebookTable
+    from ros_runtime.cell_notice import CellNotice
 
 OnEvidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
 
@@ -89,18 +91,18 @@ def self_check(exercise: str, file: str | Path | None = None, *, page: str | Pat
     Raises `UnusableSubmission` when the file cannot be read, and `NoPage` when the page cannot be written.
     """
     console = _console()
-    in_notebook = Console().is_jupyter
-    if in_notebook:
-        save_notebook()
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
-    if not file:
-        program = read_submission(path, exercise).fingerprint
-        deadline = monotonic() + (SAVE_TIMEOUT if in_notebook else 0.0)
-        while (warning := saved_work_warning(exercise, program)) and monotonic() < deadline:
-            sleep(SAVE_POLL)  # the page of JupyterLab saves the notebook meanwhile
-        if warning:
-            console.print(warning, style=WARNING, markup=False)  # before the verdicts, which may be long
-    result = check_and_keep(console, path, exercise, page=Path(page) if page else None)
+    with _notice_in_notebook() as notice:
+        if notice:
+            save_notebook()
+        if not file:
+            program = read_submission(path, exercise).fingerprint
+            deadline = monotonic() + (SAVE_TIMEOUT if notice else 0.0)
+            while (warning := saved_work_warning(exercise, program)) and monotonic() < deadline:
+                sleep(SAVE_POLL)  # the page of JupyterLab saves the notebook meanwhile
+            if warning:
+                console.print(warning, style=WARNING, markup=False)  # before the verdicts, which may be long
+        result = check_and_keep(console, path, exercise, page=Path(page) if page else None, notice=notice)
     print_next_step(console, result, path, "" if file else saved_work_warning(exercise, result.program))
     return SelfCheck(result)
 
@@ -135,11 +137,13 @@ def check_with_progress(
     recordings: Path | None = None,
     page: Path | None = None,
     robot: str | None = None,
+    notice: CellNotice | None = None,
 ) -> Grade:
     """Check a student's file with the visible checks; print each verdict as soon as it is known, then the table.
 
     `arenas` are those of this submission, if one was opened ahead; `recordings` is a folder for recordings of the
     scenarios, if they are wanted, and `page` a file for a page to show. With another `robot` the checks have no points.
+    With the `notice` of a notebook's cell, the verdicts are a table of the notebook's page.
 
     Raises `UnusableSubmission`, `UnknownExercise`, `NoPage`, and `CourseError` if the exercise is not for the robot.
     """
@@ -163,8 +167,8 @@ def check_with_progress(
             f"No isolation: {isolation.reason}. All visible checks are run; a grade made here is “untrusted”."
         )
         console.print(said, style=NOTICE, markup=False)
-    table = _notebook_table(loaded) if Console().is_jupyter else None
-    with RunningLine(console, loaded.checks, in_notebook=table is not None) as line:
+    table = _notebook_table(loaded) if notice else None
+    with RunningLine(console, loaded.checks, notice) as line:
 
         def report(verdict: CheckVerdict) -> None:
             verdict = replace(verdict, help=with_callback(verdict.help, submission.sources))
@@ -172,14 +176,12 @@ def check_with_progress(
             if table:
                 table.add(verdict)
                 return
-            with line.aside():
-                print_verdict(console, verdict)
+            print_verdict(console, verdict)
 
         def on_retry(check: Check) -> None:
             line.note_retry(check)
             if not table:
-                with line.aside():
-                    print_retry(console, check)
+                print_retry(console, check)
 
         options = GradingOptions(jobs=jobs, first_alone=True, recorded=bool(recorder or table))
         watcher = Watcher(report, on_retry, on_running=line.show)
@@ -196,8 +198,8 @@ def check_with_progress(
             f"{passed} of {len(result.checks)} checks passed on the robot {robot}: an extra, without points."
         )
         console.print(said, style="bold", markup=False)
-    if table and table.evidence:
-        _add_films(table, loaded, result)
+    if table and notice and table.evidence:
+        _add_films(table, notice, loaded, result)
     if recordings and recorder:
         _keep_recordings(console, recordings, recorder.files(result))
     if page and recorder and result.status == "graded":
@@ -219,6 +221,15 @@ def _both(first: OnEvidence, second: OnEvidence) -> OnEvidence:
     return on_evidence
 
 
+def _notice_in_notebook() -> AbstractContextManager[CellNotice | None]:
+    if not Console().is_jupyter:
+        return nullcontext()
+    # imported only if needed, because it loads IPython
+    from ros_runtime.cell_notice import CellNotice
+
+    return CellNotice("The check begins: it saves the notebook and starts the robot.")
+
+
 def _notebook_table(exercise: Exercise) -> NotebookTable:
     # imported only if needed, so that a terminal shows the first verdict sooner
     from autograder.report.notebook_table import NotebookTable
@@ -226,15 +237,14 @@ def _notebook_table(exercise: Exercise) -> NotebookTable:
     return NotebookTable(exercise.checks)
 
 
-def _add_films(table: NotebookTable, exercise: Exercise, grade: Grade) -> None:
+def _add_films(table: NotebookTable, notice: CellNotice, exercise: Exercise, grade: Grade) -> None:
     """Film the seconds around the first failures, now that all verdicts are known; an interrupt ends only this."""
     # imported only if needed, because it loads MuJoCo
     from autograder.recording.replay.failure_film import FailureFilms
 
     films = FailureFilms(exercise, grade)
     filmed = [each for each in grade.checks if each.id in table.evidence and each.robot_time is not None]
-    waits = "Drawing the films of failed checks takes some seconds …" if filmed else ""
-    print(waits, end="", flush=True)
+    notice.show("Drawing the films of failed checks takes some seconds." if filmed else "")
     for verdict in filmed:
         words, webp = "", b""
         table.film(verdict.id, "is being drawn …")
@@ -246,7 +256,6 @@ def _add_films(table: NotebookTable, exercise: Exercise, grade: Grade) -> None:
             logging.getLogger(__name__).exception("no film of %s", verdict.id)
         finally:
             table.film(verdict.id, words, webp)
-    print(f"\r{'':<{len(waits)}}\r", end="", flush=True)
 
 
 def _recorder(exercise: Exercise) -> Recorder:

@@ -16,11 +16,10 @@ from contextlib import ExitStack
 os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
 
 from lab import notices, tracebacks
+from ros_runtime.cell_notice import notice
 
 _loading = ExitStack()
-_loading.enter_context(
-    notices.notice("The lab is loading, which takes seconds, on a busy machine up to 20 s.")
-)
+_loading.enter_context(notice("The lab is loading, which takes seconds, on a busy machine up to 20 s."))
 
 from lab.client.commands import publish, walking
 from lab.client.connection import node

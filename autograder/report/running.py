@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from types import TracebackType
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 from rich.status import Status
@@ -12,15 +12,18 @@ from rich.status import Status
 from autograder.authoring.checks import Check, Scenario
 from autograder.engine.verdict import CheckVerdict
 
+if TYPE_CHECKING:
+    from ros_runtime.cell_notice import CellNotice
+
 
 class RunningLine:
-    """A status line: in a terminal the last line, in a notebook an overwritten line, elsewhere a line per change."""
+    """A status line: in a terminal the last line, in a notebook its notice, elsewhere a line per change."""
 
-    def __init__(self, console: Console, checks: Sequence[Check], *, in_notebook: bool = False) -> None:
+    def __init__(self, console: Console, checks: Sequence[Check], notice: CellNotice | None = None) -> None:
         self._console = console
         self._checks = checks
-        self._in_notebook = in_notebook
-        self._status = Status("", console=console) if console.is_terminal and not in_notebook else None
+        self._notice = notice
+        self._status = Status("", console=console) if console.is_terminal and not notice else None
         self._shown = ""
         self._judged: set[str] = set()
         self._retried: set[str] = set()
@@ -42,8 +45,8 @@ class RunningLine:
         if self._status:
             self._status.update(text)
             self._status.start() if text else self._status.stop()
-        elif self._in_notebook:
-            print(f"\r{text:<{len(self._shown)}}\r{text}", end="", flush=True)
+        elif self._notice:
+            self._notice.show(text)
         elif text:
             self._console.print(text, style="dim", highlight=False)
         self._shown = text
@@ -60,13 +63,3 @@ class RunningLine:
         checks = [check for check in self._checks if scenario in check.on]
         shown = next((check for check in checks if check.id not in self._judged), checks[0])
         return f"{shown.title} (failed once, retrying)" if shown.id in self._retried else shown.title
-
-    @contextmanager
-    def aside(self) -> Iterator[None]:
-        """Remove the line while the block prints, and show it again afterwards."""
-        shown = self._shown
-        if self._in_notebook and shown:
-            print(f"\r{'':<{len(shown)}}\r", end="")
-        yield
-        if self._in_notebook and shown:
-            print(shown, end="", flush=True)

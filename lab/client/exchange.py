@@ -14,7 +14,6 @@ from lab.client.interaction_log import log
 from lab.client.messages import GaveUp
 from lab.client.waiting import becomes_true
 from lab.errors import NoAnswerError, NoServerError, NotInTimeError
-from lab.notices import notice
 from lab.running.node_diagnosis import (
     all_have_failed,
     has_no_answer_yet,
@@ -26,6 +25,7 @@ from lab.running.node_diagnosis import (
     why_they_ended,
 )
 from lab.running.student_nodes import StudentNode, started_nodes
+from ros_runtime.cell_notice import notice
 from ros_runtime.record.client_events import ServiceCalled
 from ros_runtime.record.event import Event
 from ros_runtime.recorded_client.goal import Cancel, Goal

@@ -13,9 +13,9 @@ from lab.client.formatting import describe
 from lab.client.interaction_log import conversation, log
 from lab.client.outcomes import CancelAnswer, Outcome, read_cancel_answer
 from lab.errors import LabError
-from lab.notices import notice
 from lab.running.node_diagnosis import all_have_failed, why_aborted, why_unfinished
 from lab.running.student_nodes import started_nodes
+from ros_runtime.cell_notice import notice
 from ros_runtime.message_constants import GoalStatus, name_of
 from ros_runtime.record.client_events import ResultReceived, Unanswered
 from ros_runtime.recorded_client.action_client import ActionClient

@@ -22,9 +22,9 @@ from lab.client.interaction_log import log
 from lab.client.messages import ModeChanged
 from lab.client.waiting import becomes_true
 from lab.errors import NoRobotError
-from lab.notices import notice
 from robot_sim.model.scenes import OBJECTS
 from ros_runtime.angles import yaw_of
+from ros_runtime.cell_notice import notice
 from ros_runtime.message_constants import RobotMode, name_of
 from ros_runtime.notebook_domains import robot_of_another_notebook
 

@@ -17,9 +17,9 @@ from chapters.support import gaps
 from lab.errors import LabError
 from lab.learning.gap_cells import is_empty, is_python, placeholder
 from lab.learning.progress_file import store_entry
-from lab.notices import notice
 from lab.running.programs import stop_programs
 from lab.running.student_nodes import stop_nodes
+from ros_runtime.cell_notice import notice
 
 
 class GapError(LabError):

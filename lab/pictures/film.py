@@ -19,12 +19,12 @@ from PIL import Image
 from sensor_msgs.msg import JointState
 
 from lab.client import topics
-from lab.notices import notice
 from lab.pictures.labels import Mark
 from lab.pictures.picture import HEIGHT, WIDTH, as_mujoco, body_to_draw, figure, set_current_posture
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.film import save_frames
 from robot_sim.views.view import View
+from ros_runtime.cell_notice import notice
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 RATE = 12.5  # frames a second

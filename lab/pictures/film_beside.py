@@ -13,7 +13,6 @@ from IPython.display import HTML
 from PIL import Image, ImageDraw
 
 from lab.errors import LabError
-from lab.notices import notice
 from lab.pictures.film import DRAWING, MAX_DURATION, RATE, set_postures
 from lab.pictures.lettering import font
 from lab.pictures.picture import body_to_draw, figure
@@ -21,6 +20,7 @@ from lab.pictures.recorded_goal import RecordedGoal
 from lab.pictures.recording import Recording
 from robot_sim.views.film import save_frames
 from robot_sim.views.view import View
+from ros_runtime.cell_notice import notice
 from ros_runtime.message_constants import RobotMode, name_of
 from ros_runtime.workarounds.gl_backend import NoOpenGLError
 

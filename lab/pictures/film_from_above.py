@@ -13,7 +13,6 @@ from IPython.display import HTML
 from PIL import Image, ImageDraw
 
 from lab.errors import LabError
-from lab.notices import notice
 from lab.pictures.figure import BLUE, GREY, VERMILION
 from lab.pictures.film import DRAWING, MAX_DURATION, RATE
 from lab.pictures.labels import Mark
@@ -23,6 +22,7 @@ from lab.pictures.recorded_goal import RecordedGoal
 from lab.pictures.recording import Recording
 from robot_sim.views.film import save_frames
 from ros_runtime.angles import wrap
+from ros_runtime.cell_notice import notice
 
 WIDTH = 600  # px
 MIN_HEIGHT, MAX_HEIGHT = 150, 420  # px, of the floor

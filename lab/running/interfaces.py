@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from lab.errors import LabError
-from lab.notices import notice
+from ros_runtime.cell_notice import notice
 from ros_runtime.interface_build.definitions import InvalidDefinitions
 from ros_runtime.interface_build.student_package import (
     BuiltPackage,

@@ -13,11 +13,11 @@ from lab.client.connection import NAMESPACE, ROBOT_NODE, connection
 from lab.client.topics import START_TIMEOUT
 from lab.client.waiting import becomes_true
 from lab.errors import NoRobotError
-from lab.notices import notice
 from lab.pictures.live_view import watch_beside_the_notebook
 from lab.running.processes import GRACE, Process
 from robot_sim.body import MissingParts, body_named
 from robot_sim.model.scenes import OBJECTS
+from ros_runtime.cell_notice import notice
 from ros_runtime.notebook_domains import announce_robot, expect_node, forget_node, robot_of_another_notebook
 
 _robot: Process | None = None

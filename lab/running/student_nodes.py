@@ -10,9 +10,9 @@ from lab.client.connection import NAMESPACE, connection
 from lab.client.interaction_log import log
 from lab.client.waiting import becomes_true
 from lab.errors import LabError, NodeEndedError
-from lab.notices import notice
 from lab.running.node_diagnosis import how_it_ended, own_output
 from lab.running.processes import Process, ProcessHistory
+from ros_runtime.cell_notice import notice
 from ros_runtime.notebook_domains import expect_node, forget_node
 from ros_runtime.reachability import UNKNOWN_NODE, wait_until_reachable
 

@@ -10,7 +10,6 @@ from types import SimpleNamespace
 import pytest
 
 from autograder.engine.starter import given_in
-from lab import notices
 from lab.client import topics
 from lab.client.exchange import no_answer, wait_until
 from lab.client.waiting import becomes_true
@@ -28,6 +27,7 @@ from lab.running.node_diagnosis import (
 from lab.running.processes import Process
 from lab.running.programs import Program
 from lab.running.student_nodes import StudentNode
+from ros_runtime import cell_notice
 from ros_runtime.project import COURSE
 
 BLOCKED = """
@@ -246,8 +246,8 @@ def test_a_wait_says_what_it_waits_for(monkeypatch: pytest.MonkeyPatch) -> None:
         shown.append(content["text/plain"])
         return SimpleNamespace(update=lambda *_, **__: None)
 
-    monkeypatch.setattr(notices, "get_ipython", lambda: SimpleNamespace(kernel=True))
-    monkeypatch.setattr(notices, "display", display)
-    monkeypatch.setattr(notices, "DELAY", 0.01)
+    monkeypatch.setattr(cell_notice, "get_ipython", lambda: SimpleNamespace(kernel=True))
+    monkeypatch.setattr(cell_notice, "display", display)
+    monkeypatch.setattr(cell_notice, "DELAY", 0.01)
     wait_until(lambda: shown, 10.0, "ten steps")
     assert shown == ["This waits up to 10 s for: ten steps."]

@@ -22,6 +22,7 @@ from lab.pictures.figure import BLUE, VERMILION
 from lab.pictures.film import DRAWING, RATE
 from lab.pictures.film_beside import CAPTURE_POINT, GOAL
 from robot_sim.model.joint_names import ACTUATED_JOINTS
+from ros_runtime import cell_notice
 from ros_runtime.record.client_events import FeedbackReceived, GoalAnswered, GoalSent, ResultReceived
 
 FLASHING = 1.2  # s, in the film of the trip
@@ -181,8 +182,8 @@ def test_a_film_is_announced_while_it_is_drawn(
         "alone": lambda: stage.recording.film(),
     }[film]
     monkeypatch.setattr(lab.client.topics, "object_poses", dict)
-    monkeypatch.setattr(lab.notices, "get_ipython", lambda: SimpleNamespace(kernel=True))
-    monkeypatch.setattr(lab.notices, "display", display)
-    monkeypatch.setattr(lab.notices, "DELAY", 0.01)
+    monkeypatch.setattr(cell_notice, "get_ipython", lambda: SimpleNamespace(kernel=True))
+    monkeypatch.setattr(cell_notice, "display", display)
+    monkeypatch.setattr(cell_notice, "DELAY", 0.01)
     make()
     assert shown == [DRAWING, "removed"]

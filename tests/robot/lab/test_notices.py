@@ -7,8 +7,8 @@ import json
 import nbformat
 from nbclient import NotebookClient
 
-BEGIN = "import time\nfrom lab.notices import notice\n"
-SLOW = "with notice('The robot is <starting>.'):\n    time.sleep(1.5)\n    print('up')"
+BEGIN = "import time\nimport lab\nfrom ros_runtime.cell_notice import notice\n"
+SLOW = "with notice('The robot is <starting>.'):\n    time.sleep(2.2)\n    print('up')"
 QUICK = "with notice('not shown'):\n    print('up')"
 NESTED = "with notice('outer'):\n    with notice('inner'):\n        time.sleep(1.5)"
 WITH_VARIABLES = "def echo(value):\n    !echo {value} $value{words}\necho(7)"
@@ -37,6 +37,7 @@ def test_a_slow_step_is_announced_and_only_its_own_output_stays() -> None:
     assert len(shown) == 3
     for part, each in zip(("&lt;starting&gt;", "outer", "ros2 topic list runs"), shown, strict=True):
         assert part in each
+    assert any("&lt;starting&gt;" in each and "1 s" in each for each in seen if "role=" not in each)
     assert seen.index(shown[0]) < seen.index(json.dumps("up\n"))
     texts = [
         [output.get("text") or output.data for output in cell.outputs]

@@ -1,0 +1,83 @@
+"""Says below a running cell what it waits for and for how long, without a line in the cell's output."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import copy_context
+from html import escape
+from typing import Any
+
+from IPython.core.getipython import get_ipython
+from IPython.display import display
+
+DELAY = 0.8  # s; a step that ends sooner needs no notice
+PERIOD = 1.0  # s between two updates of the time
+
+_only_one = threading.Lock()  # of a step and its parts, the step says what goes on
+
+
+class CellNotice:
+    """A text below the running cell, with the seconds that it has stood there; the end of the `with` block removes it.
+
+    It is not printed: nothing that reads the cell's output receives it. Outside a notebook, and in threads that the
+    cell has started, nothing is shown.
+    """
+
+    def __init__(self, text: str = "") -> None:
+        self._text, self._since = text, time.monotonic()
+        self._shown: Any = None  # IPython's handle of the display, once there is one
+        self._drawing = threading.Lock()
+        self._ended = threading.Event()
+        # the context knows the cell
+        self._thread = threading.Thread(target=copy_context().run, args=(self._update,), daemon=True)
+
+    def __enter__(self) -> CellNotice:
+        in_cell = hasattr(get_ipython(), "kernel") and threading.current_thread() is threading.main_thread()
+        self._is_shown = in_cell and _only_one.acquire(blocking=False)
+        if self._is_shown:
+            self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if not self._is_shown:
+            return
+        self._ended.set()
+        self._thread.join()
+        _only_one.release()
+        if self._shown:
+            self.show("")
+
+    def show(self, text: str) -> None:
+        """Replace the text; its time begins anew."""
+        with self._drawing:
+            self._text, self._since = text, time.monotonic()
+            if self._shown:
+                self._shown.update(self._content(), raw=True)
+
+    def _update(self) -> None:
+        pause = DELAY
+        while not self._ended.wait(pause):
+            pause = PERIOD
+            with self._drawing:
+                if self._shown:
+                    self._shown.update(self._content(), raw=True)
+                elif self._text:
+                    self._shown = display(self._content(), raw=True, display_id=True)
+
+    def _content(self) -> dict[str, str]:
+        """Return the text, which a screen reader reads once, and the seconds, which it does not read."""
+        seconds = int(time.monotonic() - self._since)
+        html = f'<em role="status">{escape(self._text)}</em>'
+        if seconds:
+            html = f'<em>{escape(self._text)}</em> <span aria-hidden="true">{seconds} s</span>'
+        return {"text/html": html, "text/plain": self._text} if self._text else {"text/plain": ""}
+
+
+@contextmanager
+def notice(text: str) -> Iterator[None]:
+    """Show a text below the cell, with the time, if the `with` block takes longer than DELAY."""
+    with CellNotice(text):
+        yield
