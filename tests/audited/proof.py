@@ -49,7 +49,8 @@ def some_that_walk(
     }
     if not walked:
         return []
-    faults = [known for known in submissions if known.kind == "faulty" and walked.issuperset(known.caught_by)]
+    faults = [known for known in submissions if known.kind == "faulty" and known.caught_by]
+    faults = [known for known in faults if walked.issuperset(known.caught_by)]
     draw = random.Random(exercise.name)
     correct = [known for known in submissions if known.kind == "correct"]
     return [draw.choice(correct), *draw.sample(faults, faulty)]

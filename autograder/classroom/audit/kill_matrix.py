@@ -51,7 +51,7 @@ def kill_matrix(runs: Sequence[AuditedRun], exercise: Exercise) -> RenderableTyp
 
 def figures(runs: Sequence[AuditedRun], exercise: Exercise) -> list[str]:
     """Return the figures of the audit, each as a line."""
-    faulty = [run for run in runs if run.known.kind == "faulty"]
+    faulty = [run for run in runs if run.known.kind == "faulty" and run.known.caught_by]
     killed = [run for run in faulty if not run.missed()]
     correct = [run for run in runs if run.known.kind == "correct"]
     others = [run for run in runs if run.known.kind != "correct"]

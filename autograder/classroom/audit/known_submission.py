@@ -7,6 +7,7 @@ correct:  Style: how it is written
 faulty:   Fault: the mistake (M2)            M2 is the number of the misconception, if it has one
           Caught by: check_id, check_id      each must fail
           Also fails: check_id               may fail as a consequence of the same fault
+          On g1: check_id, check_id          instead of "Caught by" on that robot, or "nothing", and why
 hostile:  Attack: what it tries
           Outcome: what happens
           Caught by: …, Also fails: …        as above, or
@@ -17,7 +18,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatch
 from pathlib import Path
 from typing import Literal, get_args
@@ -29,10 +30,11 @@ from ros_runtime.course_error import CourseError
 
 KNOWN = "known"  # the folder of known submissions in an exercise's folder
 ABOUT = "about.md"
+NOTHING = "nothing"  # what another robot shows of some faults
 
 Kind = Literal["correct", "faulty", "hostile"]
 
-_KEY = re.compile(r"(Style|Fault|Attack|Outcome|Caught by|Also fails|Passes): *(.*)")
+_KEY = re.compile(r"(Style|Fault|Attack|Outcome|Caught by|Also fails|On \w+|Passes): *(.*)")
 _HEADLINE: Mapping[Kind, str] = {"correct": "Style", "faulty": "Fault", "hostile": "Attack"}
 
 
@@ -60,14 +62,15 @@ class KnownSubmission:
         return read_submission(self.path, self.exercise, student=self.name)
 
 
-def known_submissions(exercise: str, *, only: str = "*") -> list[KnownSubmission]:
+def known_submissions(exercise: str, *, only: str = "*", robot: str | None = None) -> list[KnownSubmission]:
     """Read the submissions in <exercise>/known/<kind>/; `only` is a glob on kind/stem or stem.
 
-    Each is a program, a patch, or a folder where students of the exercise write several files.
+    Each is a program, a patch, or a folder where students of the exercise write several files. With another `robot`,
+    `caught_by` has the checks that must fail on it.
     """
     folders = [exercises_folder() / exercise / KNOWN / kind for kind in get_args(Kind)]
     return [
-        read_known_submission(path)
+        read_known_submission(path, robot)
         for place in folders
         for path in sorted(place.glob("[!_]*"))
         if (path.is_dir() or path.suffix in (".py", SUFFIX))
@@ -85,8 +88,8 @@ def known_submission(exercise: str, name: str) -> KnownSubmission:
     return found[0]
 
 
-def read_known_submission(path: Path) -> KnownSubmission:
-    """Read the header of <exercise>/known/<kind>/<name>; raises `CourseError`."""
+def read_known_submission(path: Path, robot: str | None = None) -> KnownSubmission:
+    """Read the header of <exercise>/known/<kind>/<name>, as it is for a robot; raises `CourseError`."""
     kind, exercise = _kind(path), path.parents[2].name
     header = _parse(_header_text(path))
     headline = _HEADLINE[kind]
@@ -96,6 +99,8 @@ def read_known_submission(path: Path) -> KnownSubmission:
         exercise, kind, path, header[headline], _ids(header, "Caught by"), _ids(header, "Also fails")
     )
     _require_an_expectation(known, header)
+    if on_robot := header.get(f"On {robot}"):
+        known = replace(known, caught_by=() if on_robot.startswith(NOTHING) else _ids(header, f"On {robot}"))
     return known
 
 

@@ -125,7 +125,7 @@ def audit(
             runs = [
                 run
                 for one in exercises
-                for run in _audit(console, one, record, only, jobs=jobs, repeat=repeat, seed=seed)
+                for run in _audit(console, one, record, only, jobs=jobs, repeat=repeat, seed=seed, robot=robot)
             ]
             found, is_as_expected = len(runs), not any(run.surprises() for run in runs)
     except KeyboardInterrupt:
@@ -149,13 +149,14 @@ def _audit(
     jobs: int,
     repeat: int,
     seed: int,
+    robot: str | None,
 ) -> list[AuditedRun]:
     """Grade an exercise's submissions that are not in the record, and print the kill matrix of all its submissions."""
 
     def report(run: AuditedRun, is_earlier: bool) -> None:
         print_progress(console, run, earlier=is_earlier)
 
-    known = known_submissions(exercise.name, only=only)
+    known = known_submissions(exercise.name, only=only, robot=robot)
     runs = audit_submissions(known, exercise, record, report, jobs=jobs, repeat=repeat, seed=seed)
     console.print()
     console.print(kill_matrix(runs, exercise), width=max(console.width, MATRIX_WIDTH))

@@ -45,7 +45,8 @@ def chosen():
         submissions = known_submissions(name)
         yield from ((known, "") for known in enough_to_prove(submissions, of_each=1))
         if name in WALKING_EXERCISES:
-            yield from ((known, "g1") for known in some_that_walk(submissions, exercise, FAULTY_ON_G1))
+            on_g1 = known_submissions(name, robot="g1")
+            yield from ((known, "g1") for known in some_that_walk(on_g1, exercise, FAULTY_ON_G1))
 
 
 def label(known, robot):

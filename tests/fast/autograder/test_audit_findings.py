@@ -17,6 +17,7 @@ from ros_runtime.course_error import CourseError
 
 CORRECT = '"""Style: plain."""\n'
 FAULTY = '"""Fault: sleeps\nin the callback (M2)\nCaught by: answers\nAlso fails: ends\n\nCaught by nobody else."""\n'
+ON_ANOTHER = '"""Fault: walks too fast\nCaught by: answers\nOn g1: ends\nOn h1: nothing: it is slow"""\n'
 HOSTILE = '"""Attack: forks\nOutcome: dies of it\nCaught by: appears\n"""\n'
 
 
@@ -48,8 +49,8 @@ def exercise():
     return Exercise("service", Path("service"), checks)
 
 
-def read(folder, kind):
-    return read_known_submission(folder / "service" / "known" / kind / "one.py")
+def read(folder, kind, robot=None):
+    return read_known_submission(folder / "service" / "known" / kind / "one.py", robot)
 
 
 def run_of(known, **statuses):
@@ -68,6 +69,13 @@ def test_header_is_read_with_its_continued_lines(folder):
     assert known.caught_by == ("answers",)
     assert known.also_fails == ("ends",)
     assert known.name == "faulty/one"
+
+
+@pytest.mark.parametrize(
+    ("robot", "caught_by"), [(None, ("answers",)), ("g1", ("ends",)), ("h1", ()), ("t1", ("answers",))]
+)
+def test_a_header_says_what_catches_the_fault_on_another_robot(folder, robot, caught_by):
+    assert read(folder(faulty=ON_ANOTHER), "faulty", robot).caught_by == caught_by
 
 
 def test_header_is_read_from_a_file_that_python_cannot_parse(folder):

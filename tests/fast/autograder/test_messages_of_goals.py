@@ -62,6 +62,10 @@ NO_RESULT = given_up("result", "walk", t=12.0)
             "execute made its terminal call but has not returned",
         ),
         (
+            [status(GoalStatus.EXECUTING), feedback(11.8), status(GoalStatus.SUCCEEDED, t=13.5)],
+            "It takes too long",
+        ),
+        (
             [
                 status(GoalStatus.EXECUTING),
                 *(feedback(2.5 + second) for second in range(10)),

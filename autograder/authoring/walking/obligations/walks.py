@@ -80,7 +80,7 @@ def walks_at_its_own_velocity(goal: Goal) -> str | None:
 
 def turns_the_short_way(goal: Goal) -> str | None:
     """It turns the shorter way round, also where the heading jumps from pi to -pi."""
-    if not life.is_undisturbed(goal) or goal.result is None or not life.began_at_rest(goal):
+    if not life.is_undisturbed(goal) or not life.began_at_rest(goal):
         return None
     start = goal.run.robot_at(goal.sent.t).yaw
     aim = heading(target(goal).orientation)
