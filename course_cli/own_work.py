@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from autograder.engine.exercise import file_names
-from autograder.engine.hand_in import MOST_FOLDERS, work_in
+from autograder.engine.hand_in import MOST_FOLDERS, PROGRAMS_DIFFER, work_in
 from autograder.engine.submission import UnusableSubmission
 from ros_runtime.project import COURSE, WORK
 from ros_runtime.terminal import as_typed
@@ -33,7 +33,11 @@ def own_work(exercise: str, file: Path | None, naming: str = "check {} FILE") ->
         places = [(file, MOST_FOLDERS)]
     for folder, depth in places:
         if folder.is_dir() and (found := work_in(folder, exercise, depth=depth)):
-            return found
+            path, left_aside = found
+            advice = (
+                "; run its %%writefile cell, which writes that file anew" if path.suffix == ".ipynb" else ""
+            )
+            return path, [line + advice * line.endswith(PROGRAMS_DIFFER) for line in left_aside]
     names = ", ".join([f"{exercise}.ipynb", *file_names(exercise)])
     folders = str(file) if file else f"this folder and {in_course}"
     raise UnusableSubmission(

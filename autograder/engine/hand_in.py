@@ -34,6 +34,7 @@ TIME_TOLERANCE = 60.0  # s; modification times that differ by less count as the 
 ANY_NAME = (
     2  # value of `Named.copy` if the exercise is known from the folder or an option, not from the file's name
 )
+PROGRAMS_DIFFER = "their programs differ"
 MOST_FOLDERS = 6  # levels of folders that are searched below a student's folder
 TOOL_FOLDERS = ("__MACOSX", "__pycache__", "node_modules", "site-packages")  # folders that tools create
 _COPY = "copy|copie|copia|cópia|kopie|kopia|kopi|kopio|kopya|копия|másolat|副本|コピー|복사본"
@@ -241,7 +242,7 @@ def choose_work(candidates: Sequence[Candidate]) -> tuple[Candidate, list[str]]:
 
     def in_words(one: Candidate) -> str:
         both_count = standings[one] == standings[chosen] == 0
-        return f"{one.path} {why(one)}" + ("; their programs differ" if both_count else "")
+        return f"{one.path} {why(one)}" + (f"; {PROGRAMS_DIFFER}" if both_count else "")
 
     others = sorted(
         (one for one in candidates if one is not chosen and not same_texts(one.sources, chosen.sources)),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import zipfile
 from collections.abc import Mapping
@@ -181,7 +182,8 @@ def _write(
 def _default_folder() -> Path:
     """Return hand_in/ at the top of the student's course, also for a cell, which runs in its notebook's folder."""
     here = Path.cwd()
-    return (WORK if here.is_relative_to(WORK.resolve()) else here) / "hand_in"
+    course = WORK.resolve()
+    return Path(os.path.relpath(course if here.is_relative_to(course) else here)) / "hand_in"
 
 
 def _earlier(exercise: str, out: Path) -> dict[Path, Submission | None]:

@@ -165,7 +165,10 @@ def why_no_result(goal: Goal) -> tuple[str, str]:
     end, given_up = final_status(goal), goal.run.given_up("result", goal.name)
     if end and given_up and end.t > given_up.t:
         ended = f"the goal ended {name_of(GoalStatus, end.status)} {end.t - given_up.t:.1f} s later"
-        return f"no result within {given_up.waited:g} s; {ended}", "It takes too long: look for what it waits for."
+        return (
+            f"no result within {given_up.waited:g} s; {ended}",
+            "It takes too long: look for what it waits for.",
+        )
     if status in _CALLS:
         return seen, _why_no_result_after_the_end(goal)
     if status == GoalStatus.ACCEPTED:

@@ -125,7 +125,9 @@ def audit(
             runs = [
                 run
                 for one in exercises
-                for run in _audit(console, one, record, only, jobs=jobs, repeat=repeat, seed=seed, robot=robot)
+                for run in _audit(
+                    console, one, record, only, jobs=jobs, repeat=repeat, seed=seed, robot=robot
+                )
             ]
             found, is_as_expected = len(runs), not any(run.surprises() for run in runs)
     except KeyboardInterrupt:

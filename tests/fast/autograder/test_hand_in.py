@@ -347,7 +347,7 @@ def test_a_program_that_passed_fewer_checks_replaces_no_better_one_until_that_is
         said = printed_by(capsys)
         assert f"{keeps}; this program: {now}" in said
         assert f"Next: ./course check {NAME}, and submit again" in said
-        assert said.endswith(f"to hand it in all the same, remove {handed_in}.")
+        assert said.endswith(f"to hand it in all the same, remove {os.path.relpath(handed_in)}.")
         assert read_submission(handed_in, NAME).sources == {FIRST: WORK}
         checked[fingerprint(OTHER)] = LastCheck(3, 8, "2026-11-27T11:00:00")
     handed_in.unlink()
