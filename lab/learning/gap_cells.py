@@ -56,18 +56,6 @@ def solution(text: str) -> str:
     return found["lines"]
 
 
-def gaps_of(notebook: nbformat.NotebookNode) -> dict[str, tuple[str, str]]:
-    """Return the program and the solution of each gap of a chapter, by the gap's file."""
-    return {
-        cell.source.splitlines()[0].removeprefix(MAGIC).strip(): (
-            cell.source.partition("\n")[2] + "\n",
-            solution(below.source),
-        )
-        for cell, below in zip(notebook.cells, notebook.cells[1:], strict=False)
-        if cell.source.startswith(MAGIC)
-    }
-
-
 def fill_gaps(notebook: nbformat.NotebookNode) -> None:
     """Write the solutions into the gaps of a chapter."""
     for cell, below in zip(notebook.cells, notebook.cells[1:], strict=False):

@@ -99,11 +99,6 @@ def as_status(html: str) -> str:
     return f'<span role="status">{html}</span>'
 
 
-def chapters_with_questions() -> list[str]:
-    """Return the names of the files in `chapters/support/questions`, one for each chapter."""
-    return sorted(path.name.removesuffix(".yaml") for path in _FOLDER.iterdir())
-
-
 @cache
 def read_questions(chapter: str, kind: Kind) -> tuple[Question, ...]:
     """Return a chapter's predictions or quiz questions, from `chapters/support/questions`.

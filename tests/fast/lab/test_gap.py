@@ -12,7 +12,7 @@ import pytest
 import lab
 from lab.learning import gap as gap_module
 from lab.learning.gap import Gap, expect, find_gap, write_and_check
-from lab.learning.gap_cells import fill, gaps_of, solution
+from lab.learning.gap_cells import fill, solution
 from lab.learning.gap_check_helpers import advice_on, last_error, read_program, run_student_code
 from lab.learning.progress_file import read_entries
 
@@ -122,17 +122,6 @@ def test_a_file_without_a_gap_is_reported() -> None:
         lab.LabError, match=r"no chapter has a gap in a file of this name; the files with gaps are double\.py"
     ):
         find_gap("another.py")
-
-
-def test_the_gaps_of_a_notebook_are_found_with_their_solutions() -> None:
-    from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
-
-    cells = [
-        new_code_cell("import lab"),
-        new_code_cell("%%gap double.py\n" + PROGRAM.rstrip("\n")),
-        new_markdown_cell(FOLDED),
-    ]
-    assert gaps_of(new_notebook(cells=cells)) == {"double.py": (PROGRAM, "return 2 * x\n")}
 
 
 DEFINITION = "# YOUR CODE HERE: a speed, with its unit (1 line)\n...\n---\nbool success\n"

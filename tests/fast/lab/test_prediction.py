@@ -10,11 +10,12 @@ import pytest
 import lab
 from lab.learning.prediction import Prediction
 from lab.learning.progress_file import NAME
-from lab.learning.question import Choice, Question, chapters_with_questions, read_questions
+from lab.learning.question import Choice, Question, read_questions
+from ros_runtime.project import COURSE
 
 ALL = [
     (chapter, number)
-    for chapter in chapters_with_questions()
+    for chapter in sorted(path.stem for path in (COURSE / "chapters/support/questions").glob("*.yaml"))
     for number in range(1, len(read_questions(chapter, "predictions")) + 1)
 ]
 EXAMPLE = Question(
