@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import math
 import time
 from collections.abc import Callable
@@ -16,7 +15,6 @@ from lab.client.waiting import becomes_true
 from lab.errors import NoAnswerError, NoServerError, NotInTimeError
 from lab.running.node_diagnosis import (
     all_have_failed,
-    has_no_answer_yet,
     server_of,
     what_nodes_lack,
     why_not_connected,
@@ -26,8 +24,6 @@ from lab.running.node_diagnosis import (
 )
 from lab.running.student_nodes import StudentNode, started_nodes
 from ros_runtime.cell_notice import notice
-from ros_runtime.record.client_events import ServiceCalled
-from ros_runtime.record.event import Event
 from ros_runtime.recorded_client.goal import Cancel, Goal
 from ros_runtime.recorded_client.service_client import Call
 
@@ -46,21 +42,14 @@ def wait_until(
 
     A notice says what is awaited, and whether the robot lies at the beginning. Raises NotInTimeError after `timeout` s;
     it also says if the robot lies, why nodes have ended, what is still to be written in one that runs, and why it
-    receives no messages. If the condition asks a service in which nothing is written, or reads a node that has ended,
-    the error is raised at once.
+    receives no messages.
     """
     began = time.monotonic()
-    hopeless = _Hopeless(condition)
-
-    def is_over() -> bool:
-        return bool(condition()) or hopeless.is_known()
-
     lies = f" {LIES}" if topics.fell_at() else ""
-    with log.listening(hopeless.note), notice(f"This waits up to {timeout:g} s for: {what}.{lies}"):
-        if becomes_true(is_over, timeout) and not hopeless.found:
+    with notice(f"This waits up to {timeout:g} s for: {what}.{lies}"):
+        if becomes_true(condition, timeout):
             return
-    waited = "not so, and waiting longer changes nothing" if hopeless.found else f"not within {timeout:g} s"
-    message = f"{what}: {waited}" + (f", but {seen() or 'an empty text'!r}" if seen else "")
+    message = f"{what}: not within {timeout:g} s" + (f", but {seen() or 'an empty text'!r}" if seen else "")
     if fell := topics.fell_at():
         when = f"{abs(fell - began):.1f} s {'after' if fell > began else 'before'} this wait began"
         message += f". The robot lies: it fell {when}. lab.restart_robot() sets it up again."
@@ -68,51 +57,6 @@ def wait_until(
     raise NotInTimeError(
         message + (why_they_ended(nodes) or what_nodes_lack(nodes) or why_not_connected(nodes))
     )
-
-
-class _Hopeless:
-    """Finds out during a wait that its condition cannot become true, by the nodes and services that it asks.
-
-    Attributes:
-        found: whether it cannot.
-    """
-
-    def __init__(self, condition: Callable[[], Any]) -> None:
-        self.found = False
-        self._asked: set[str] = set()
-        self._judged: set[str] = set()
-        self._read = _nodes_read_by(condition)
-        self._over_since: float | None = None
-
-    def note(self, event: Event) -> None:
-        """Note which services the condition asks."""
-        if isinstance(event, ServiceCalled):
-            self._asked.add(event.service)
-
-    def is_known(self) -> bool:
-        """Return whether the condition, which was just false, cannot become true."""
-        now = time.monotonic()
-        if not self._read or any(node.is_running for node in self._read):
-            self._over_since = None
-        elif self._over_since is None:
-            self._over_since = now
-        new = self._asked - self._judged
-        self._judged |= new
-        self.found = (self._over_since is not None and now > self._over_since + TIME_TO_END) or any(
-            has_no_answer_yet(started_nodes(), service) for service in new
-        )
-        return self.found
-
-
-def _nodes_read_by(condition: Callable[[], Any]) -> list[StudentNode]:
-    """Return the student's nodes that a condition reads; none if it reads or calls anything else that can change."""
-    try:
-        names = inspect.getclosurevars(condition)
-    except (TypeError, ValueError):  # no function of Python, or a variable without a value
-        return []
-    read = [*names.nonlocals.values(), *names.globals.values()]
-    nodes = [each for each in read if isinstance(each, StudentNode)]
-    return nodes if len(nodes) == len(read) else []
 
 
 def require_server(is_ready: Callable[[], bool], name: str, interface: Any, timeout: float) -> None:

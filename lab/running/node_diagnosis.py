@@ -18,12 +18,12 @@ from autograder.authoring.diagnosis.exit_diagnosis import (
 )
 from autograder.authoring.diagnosis.goal_diagnosis import why_no_result, why_rclpy_aborted
 from autograder.authoring.diagnosis.readiness import require_ready
-from autograder.authoring.diagnosis.service_callback import callback_of, syntax_tree, with_callback
+from autograder.authoring.diagnosis.service_callback import syntax_tree, with_callback
 from autograder.authoring.diagnosis.stack_location import where_it_waited
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
-from autograder.engine.starter import empty_places, what_is_to_be_written
+from autograder.engine.starter import what_is_to_be_written
 from autograder.engine.submission import Submission
 from lab.client.connection import NAMESPACE, ROBOT_NODE, connection
 from lab.client.graph import Endpoint, Topic, topics_in_graph
@@ -56,18 +56,6 @@ def what_nodes_lack(nodes: Iterable[StudentNode]) -> str:
     """Return where nothing is written yet below `# YOUR CODE HERE` in running nodes, each in a line; "" if nowhere."""
     found = [what_is_to_be_written(*_program(node.file)) for node in nodes if node.is_running]
     return "".join(f"\n{sentence}" for sentence in found if sentence)
-
-
-def has_no_answer_yet(nodes: Iterable[StudentNode], service: str) -> bool:
-    """Whether the node that offers a service has a callback for it in which nothing is written yet."""
-    server = server_of(nodes, service)
-    callback = callback_of(service, syntax_tree(_text(server.file))) if server else None
-    if server is None or callback is None or not all(isinstance(each, ast.Return) for each in callback.body):
-        return False
-    return any(
-        callback.lineno <= line <= (callback.end_lineno or 0)
-        for line in empty_places(*_program(server.file)).get(server.file.name, [])
-    )
 
 
 def all_have_failed(nodes: Iterable[StudentNode]) -> bool:
