@@ -30,6 +30,7 @@ WALKED_AHEAD = (-0.301, -0.173, -0.033, 0.017, 0.113, 0.263, 0.372, 0.456)
 ASKED_LEFT = (-0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3)
 WALKED_LEFT = (-0.13, -0.088, -0.037, 0.022, 0.084, 0.136, 0.176)
 HEADING_GAIN, MOST_TURN, MOST_HEADING_ERROR = 1.5, 0.7, 0.3  # 1/s, rad/s and rad
+LEFT_OF_TURN = 0.05  # rad; if more is left when it stops, it makes another step
 LOADED = 20.0  # N on a foot that stands
 SWING_TIME = 0.1  # s; a foot that was in the air for less has not made a step
 # After a walk it stands when both feet have been on the floor, and the pelvis slower than this, for a while.
@@ -85,6 +86,7 @@ class LearnedWalker:
         self._heading = 0.0
         self._action = np.zeros(len(STANCE))
         self._phases: np.ndarray | None = None  # of the left and right foot while it walks, rad
+        self._makes_further_step = False  # although it shall stop
         self._feet = [FootSensor(model, data, side) for side in SIDES]
         self._in_air = [0.0, 0.0]  # s, of each foot
         self.stands, self.steps = True, 0
@@ -102,6 +104,7 @@ class LearnedWalker:
         if abs(wrap(self._heading - self._yaw)) > MOST_HEADING_ERROR:
             self._heading = self._yaw
         self._command = command
+        self._makes_further_step = self._makes_further_step and command is None
         self.stands = self.stands and command is None
 
     def tick(self, dt: float) -> None:
@@ -141,7 +144,9 @@ class LearnedWalker:
     def _velocity(self) -> tuple[float, float, float]:
         """Return the velocity to ask for now, and advance the phases of the feet; a step is completed before a stop.
 
-        Otherwise a program that stops and goes on many times a second would begin the same step over and over.
+        Otherwise a program that stops and goes on many times a second would begin the same step over and over. If more
+        than LEFT_OF_TURN is left, it makes one more step: as it comes to rest, the body turns back a little, and a
+        program with a small tolerance would correct that for ever.
         """
         if self._command is None and self._phases is None:
             return 0.0, 0.0, 0.0
@@ -150,8 +155,12 @@ class LearnedWalker:
         advance = 2 * math.pi / STRIDE_TIME / RATE
         self._phases = np.remainder(before + advance + math.pi, 2 * math.pi) - math.pi
         if self._command is None and math.cos(before[0]) * math.cos(self._phases[0]) <= 0.0:
-            self._phases = None  # both feet are on the floor
-            return 0.0, 0.0, 0.0
+            # both feet are on the floor
+            left = abs(wrap(self._heading - self._yaw))
+            self._makes_further_step = left > LEFT_OF_TURN and not self._makes_further_step
+            if not self._makes_further_step:
+                self._phases = None
+                return 0.0, 0.0, 0.0
         self._heading += wz / RATE
         error = clamp(wrap(self._heading - self._yaw), -MOST_HEADING_ERROR, MOST_HEADING_ERROR)
         self._heading = self._yaw + error

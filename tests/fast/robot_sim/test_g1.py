@@ -12,6 +12,8 @@ from robot_sim.humanoid import Humanoid
 from robot_sim.state import Mode
 from robot_sim.views.view import snapshot
 from robot_sim.walking.balance_gains import BalanceGains
+from robot_sim.walking.planar import Frame
+from ros_runtime.angles import wrap
 
 pytestmark = needs_g1
 
@@ -43,6 +45,24 @@ def test_a_turn_in_short_bursts_adds_up(robot):
         robot.walk_velocity(0.0, 0.0, 0.0)
         simulate(robot, 0.4)
     assert robot.base_pose().yaw == pytest.approx(20 * 0.3 * 0.1, abs=0.1)
+
+
+@pytest.mark.parametrize(("x", "y", "yaw"), [(0.26, -0.03, -3.01), (0.28, 0.06, -3.0), (0.29, 0.02, -3.0)])
+def test_it_comes_to_rest_for_a_program_that_corrects_every_small_turn(robot, x, y, yaw):
+    simulate(robot, 1.0)
+    rounds_at_rest, end = 0, robot.time + 30.0
+    while rounds_at_rest < 16 and robot.time < end:  # as cancellable_walk's abort_on_acceptance does
+        here = robot.base_pose()
+        forward, left = Frame(*here.position[:2], here.yaw).local(x, y)
+        turn = wrap(yaw - here.yaw)
+        is_there = np.hypot(forward, left) <= 0.06 and abs(turn) <= 0.08
+        command = (
+            np.zeros(3) if is_there else np.clip([forward, left, turn], [-0.35, -0.1, -0.4], [0.35, 0.1, 0.4])
+        )
+        robot.walk_velocity(*command)
+        rounds_at_rest = rounds_at_rest + 1 if is_there and np.hypot(*robot.data.qvel[:2]) < 0.05 else 0
+        simulate(robot, 0.05)
+    assert rounds_at_rest == 16
 
 
 def test_without_power_all_its_parts_come_to_lie_on_the_floor(robot):
