@@ -7,7 +7,7 @@ correct:  Style: how it is written
 faulty:   Fault: the mistake (M2)            M2 is the number of the misconception, if it has one
           Caught by: check_id, check_id      each must fail
           Also fails: check_id               may fail as a consequence of the same fault
-          On g1: check_id, check_id          instead of "Caught by" on that robot, or "nothing", and why
+          On g1: check_id, check_id          must fail on that robot; "Caught by" then may; or "nothing", and why
 hostile:  Attack: what it tries
           Outcome: what happens
           Caught by: …, Also fails: …        as above, or
@@ -100,7 +100,8 @@ def read_known_submission(path: Path, robot: str | None = None) -> KnownSubmissi
     )
     _require_an_expectation(known, header)
     if on_robot := header.get(f"On {robot}"):
-        known = replace(known, caught_by=() if on_robot.startswith(NOTHING) else _ids(header, f"On {robot}"))
+        caught_by = () if on_robot.startswith(NOTHING) else _ids(header, f"On {robot}")
+        known = replace(known, caught_by=caught_by, also_fails=(*known.also_fails, *known.caught_by))
     return known
 
 
