@@ -16,6 +16,7 @@ from rich.text import Text
 
 from autograder.authoring.checks import Check
 from autograder.authoring.diagnosis.service_callback import with_callback
+from autograder.authoring.diagnosis.stack_location import with_code
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import Exercise, file_names, load_exercise
 from autograder.engine.grading import GradingOptions, Watcher, grade
@@ -171,7 +172,8 @@ def check_with_progress(
     with RunningLine(console, loaded.checks, notice) as line:
 
         def report(verdict: CheckVerdict) -> None:
-            verdict = replace(verdict, help=with_callback(verdict.help, submission.sources))
+            sources = submission.sources
+            verdict = replace(verdict, help=with_code(with_callback(verdict.help, sources), sources))
             line.note(verdict)
             if table:
                 table.add(verdict)
@@ -244,10 +246,11 @@ def _add_films(table: NotebookTable, notice: CellNotice, exercise: Exercise, gra
 
     films = FailureFilms(exercise, grade)
     filmed = [each for each in grade.checks if each.id in table.evidence and each.robot_time is not None]
-    notice.show("Drawing the films of failed checks takes some seconds." if filmed else "")
+    notice.show(
+        "If the robot moved in a failed check, a film is drawn, which takes some seconds." if filmed else ""
+    )
     for verdict in filmed:
         words, webp = "", b""
-        table.film(verdict.id, "is being drawn …")
         try:
             words, webp = films.of(verdict, table.evidence[verdict.id])
         except KeyboardInterrupt:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from autograder.engine.exercise import file_names
+from autograder.engine.exercise import exercise_names, file_names
 from autograder.engine.hand_in import MOST_FOLDERS, PROGRAMS_DIFFER, work_in
 from autograder.engine.submission import UnusableSubmission
 from ros_runtime.project import COURSE, WORK
@@ -21,6 +21,12 @@ def own_work(exercise: str, file: Path | None, naming: str = "check {} FILE") ->
         UnusableSubmission: there is none; the message says how to name one, with the exercise at {} of `naming`.
     """
     if file and not file.is_dir():
+        for other in exercise_names():
+            if other != exercise and file.name in (f"{other}.ipynb", *file_names(other)):
+                wanted = as_typed(naming.format(other).replace("FILE", str(file)))
+                raise UnusableSubmission(
+                    f"{file} is a file of {other}: {wanted}, or give the file another name"
+                )
         return file, []
     here = Path()
     own = Path("exercises") / exercise

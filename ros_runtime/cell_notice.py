@@ -73,7 +73,8 @@ class CellNotice:
         html = f'<em role="status">{escape(self._text)}</em>'
         if seconds:
             html = f'<em>{escape(self._text)}</em> <span aria-hidden="true">{seconds} s</span>'
-        return {"text/html": html, "text/plain": self._text} if self._text else {"text/plain": ""}
+        content = {"text/html": f'<div class="course-notice">{html}</div>', "text/plain": self._text}
+        return content if self._text else {"text/plain": ""}
 
 
 @contextmanager

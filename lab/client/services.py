@@ -8,6 +8,7 @@ from typing import Any
 from lab.client.connection import connection
 from lab.client.exchange import give_up, require_server
 from lab.errors import LabError
+from ros_runtime.cell_notice import notice
 
 
 def call(service: str, service_type: Any, request: Any = None, *, timeout: float = 2.0) -> Any:
@@ -30,13 +31,9 @@ def call(service: str, service_type: Any, request: Any = None, *, timeout: float
     client = connection().client(service_type, service)
     require_server(lambda: not client.unmatched(), service, service_type, timeout)
     sent = client.send(request)
-    if not sent.wait(max(0.0, deadline - time.monotonic())):
-        raise give_up(
-            sent,
-            timeout,
-            service,
-            f"no answer from {service} within {timeout:g} s; whether the server has executed the request is unknown.",
-        )
+    with notice(f"This waits up to {timeout:g} s for the response of {service}."):
+        if not sent.wait(max(0.0, deadline - time.monotonic())):
+            raise give_up(sent, timeout, service, f"no answer from {service} within {timeout:g} s.")
     return sent.response
 
 

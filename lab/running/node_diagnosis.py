@@ -19,7 +19,7 @@ from autograder.authoring.diagnosis.exit_diagnosis import (
 from autograder.authoring.diagnosis.goal_diagnosis import why_no_result, why_rclpy_aborted
 from autograder.authoring.diagnosis.readiness import require_ready
 from autograder.authoring.diagnosis.service_callback import syntax_tree, with_callback
-from autograder.authoring.diagnosis.stack_location import where_it_waited
+from autograder.authoring.diagnosis.stack_location import where_it_waited, with_code
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.failure import Failure
@@ -41,7 +41,6 @@ _SEEN_BY_THE_CLIENT = (
 _SAMPLES = 3  # of the stacks; a callback that is in all of them does not return
 _FRAME = re.compile(r'^  File "([^"]+)", line \d+.*\n(?:    .*\n)*', re.MULTILINE)
 _FOLDER = re.compile(r'(?<=File ")[^"]*/(?=\w+\.py")')
-_PLACE = re.compile(r"line (\d+) of (\w+\.py)")
 _ERROR = re.compile(r"^[\w.]*(?:Error|Exception)\b.*", re.MULTILINE)
 
 
@@ -89,7 +88,8 @@ def how_it_ended(node: StudentNode) -> str:
     run = _record(node)
     help = remedy_for_the_end(run, ev.NodeExited(returncode=node.exit_status or 0)).help
     help = with_callback(help, {node.file.name: _text(node.file)})
-    return f"with exit status {node.exit_status}: {run.last_words}. {_with_code(help, node)}"
+    words = run.last_words.rstrip(".?")
+    return f"with exit status {node.exit_status}: {words}. {_with_code(help, node)}"
 
 
 def own_output(node: StudentNode) -> str:
@@ -275,11 +275,5 @@ def _text(file: Path) -> str:
 
 
 def _with_code(advice: str, node: StudentNode) -> str:
-    """Return advice that quotes the line of the student's file that it names."""
-
-    def quoted(place: re.Match[str]) -> str:
-        lines = _text(node.file.with_name(place[2])).splitlines()
-        line = lines[int(place[1]) - 1].strip() if int(place[1]) <= len(lines) else ""
-        return f"{place[0]} (`{line}`)" if line else place[0]
-
-    return _PLACE.sub(quoted, advice)
+    """Return advice that quotes the line that it names of the student's file, or of one beside it."""
+    return with_code(advice, {file.name: _text(file) for file in node.file.parent.glob("*.py")})

@@ -101,7 +101,7 @@ class Program:
         return f"<{self.file.name}: {self._state()}>"
 
     def __str__(self) -> str:
-        lines = (self.stdout + self.stderr).splitlines()
+        lines = (self.stdout + self.stderr).replace(f"{self.file.resolve().parent}/", "").splitlines()
         remedy = remedy_for_a_traceback(self.stderr) if self.exit_status else None
         return "\n    ".join([repr(self), *lines]) + (f"\n{remedy.help}" if remedy else "")
 

@@ -15,7 +15,7 @@ LEVELS = in_order(
 )
 INTERRUPT = in_order(robot=UNPLUGGED_ROBOT, interrupt=True)
 
-KNOWS_NOTHING = "02_services#m9-fix-why"
+KNOWS_NOTHING = "02_services#battery-break-why"
 
 server_appears = standard.server_appears("get_battery_status", on=INTERRUPT, clauses=[5])
 

@@ -90,7 +90,8 @@ def on_refusing(call: Call) -> str:
     if cause := why_no_message_arrives(call.run, "robot_state"):
         return f"{cause} Without it the node cannot know that the robot walks."
     return (
-        "If data is false and the last robot_state.mode is WALKING, set success to false and publish nothing."
+        "If data is false and the last robot_state.mode is RobotState.WALKING, which is a number, set success to false "
+        "and publish nothing."
     )
 
 

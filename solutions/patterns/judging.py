@@ -80,5 +80,5 @@ def _require_form(number: int, pattern: str, reason: str) -> None:
         pattern in PATTERNS and len(reason) == 1 and reason in REASONS,
         expected=f"for situation {number} one of {', '.join(PATTERNS)}, and a reason a, b or c",
         observed=f"{pattern} {reason}",
-        help="Write both as strings, the pattern first, for example ('topic', 'a').",
+        help=f"Write one of the words {', '.join(PATTERNS)} and then one of the letters, as strings: ('topic', 'a').",
     )

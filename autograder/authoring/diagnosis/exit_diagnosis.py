@@ -51,7 +51,7 @@ _SIGNS: dict[str, Remedy] = {
     ),
     r"^AssertionError: The '(\w+)' field must be a sub message of type '(\w+)'": Remedy(
         r"The field \1 takes a message of the type \2, and got something else: None, if no message has arrived "
-        r"yet. Test `is None` first, and then leave \1 as it is.",
+        r"yet. Test `is None` first: the task says what \1 is then.",
         CRASHES,
     ),
     r"^AssertionError: The '(\w+)' field must be a set or sequence": Remedy(
@@ -60,6 +60,10 @@ _SIGNS: dict[str, Remedy] = {
     r"^AssertionError: The '(\w+)' field must be": Remedy(
         r"The field \1 got a value of the wrong type: give it the type that the interface names, such as 1.0 for a "
         "float and True for a bool, and never None.",
+        WRONG_TYPE,
+    ),
+    r"^TypeError: Expected <class '(?:\w+\.)*(\w+)'>, got <class '(?:\w+\.)*(\w+)'>": Remedy(
+        r"publish() takes a message of the type \1, and got a \2: make a message, such as \1(data=…).",
         WRONG_TYPE,
     ),
     r"^AttributeError: '\w+_FeedbackMessage' object has no attribute": Remedy(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from autograder.authoring.diagnosis.exit_diagnosis import OWN_FILE
@@ -10,6 +11,7 @@ from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.record import Record
 
 _FRAME = re.compile(r'File "([^"]+)", line (\d+) in ([\w.<>]+)')
+_PLACE = re.compile(r"line (\d+) of (\w+\.py)")
 _SPINNING = ("main", "<module>")  # functions in which a correct server spins
 
 
@@ -25,6 +27,17 @@ class Place:
     def __str__(self) -> str:
         calls = f", which called {self.calls}()" if self.calls else ""
         return f"line {self.line} of {self.file}, in {self.function}(){calls}"
+
+
+def with_code(advice: str, sources: Mapping[str, str]) -> str:
+    """Return advice that quotes each line of the student's files that it names; `sources` are their texts by name."""
+
+    def quoted(place: re.Match[str]) -> str:
+        lines = sources.get(place[2], "").splitlines()
+        line = lines[int(place[1]) - 1].strip() if int(place[1]) <= len(lines) else ""
+        return f"{place[0]} (`{line}`)" if line else place[0]
+
+    return _PLACE.sub(quoted, advice)
 
 
 def where_it_waited(run: Record, *, in_main: bool = False) -> Place | None:

@@ -229,6 +229,13 @@ def test_the_exercise_of_the_course_is_found_from_any_folder_of_it(
         command.submit(["walk_to"])
 
 
+def test_a_file_of_another_exercise_is_not_checked(tmp_path: Path) -> None:
+    with pytest.raises(
+        UnusableSubmission, match=r"walk_to\.py is a file of walk_to: \./course check walk_to .*walk_to\.py"
+    ):
+        own_work(NAME, tmp_path / "walk_to.py")
+
+
 def test_check_finds_work_in_a_folder_below(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     put(tmp_path, f"work/{SECOND}")

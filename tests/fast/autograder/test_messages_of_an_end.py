@@ -49,6 +49,10 @@ NO_RETURN = said(
             "has arrived yet. Test `is None` first",
         ),
         (
+            said("TypeError: Expected <class 'std_msgs.msg._bool.Bool'>, got <class 'bool'>"),
+            "publish() takes a message of the type Bool, and got a bool: make a message, such as Bool(data=…).",
+        ),
+        (
             [
                 *said(
                     "RCLError: goal_handle attempted invalid transition from state EXECUTING with event CANCELED"

@@ -119,7 +119,11 @@ def test_a_wrong_status_is_explained_by_the_answers_so_far(
             "",
             "Nothing was switched off, but success is true: set response.success = False, and give",
         ),
-        (lambda t: t < 4.0, "power off", "If data is false and the last robot_state.mode is WALKING"),
+        (
+            lambda t: t < 4.0,
+            "power off",
+            "If data is false and the last robot_state.mode is RobotState.WALKING",
+        ),
     ],
 )
 def test_a_refusal_with_success_true_is_distinguished_from_no_refusal(
