@@ -168,7 +168,9 @@ def test_only_near_names_are_suggested() -> None:
     assert str(unknown("topic", "/r_gripper/wrench", names)).endswith(
         "did you mean /robot/l_gripper/wrench or /robot/r_gripper/wrench?"
     )
-    assert str(unknown("topic", "/robot/bat", [*names, "/robot/battery_state"])).endswith("/robot/battery_state?")
+    assert str(unknown("topic", "/robot/bat", [*names, "/robot/battery_state"])).endswith(
+        "/robot/battery_state?"
+    )
     assert "did you mean" not in str(unknown("topic", "/robot/camera", names))
 
 
