@@ -25,18 +25,16 @@ def is_starter(submission: Submission, *notebooks: Path) -> bool:
 
 
 def what_is_to_be_written(submission: Submission, *notebooks: Path) -> str:
-    """Return in which lines of each file nothing is written yet, and what to do, each in a line; "" if in none."""
+    """Return in which lines of each file nothing is written yet, and what to do, each in a line; "" if in none.
+
+    In the starter these are all lines `# YOUR CODE HERE`, else those below which the student wrote nothing.
+    """
+    pattern = _PLACES if is_starter(submission, *notebooks) else _EMPTY_PLACES
     return "\n".join(
         f"{name} is as the starter leaves it below `# YOUR CODE HERE` in {_in_words(lines)}: write your code there."
-        for name, lines in empty_places(submission, *notebooks).items()
+        for name, text in submission.sources.items()
+        if (lines := _lines_of(pattern, text))
     )
-
-
-def empty_places(submission: Submission, *notebooks: Path) -> dict[str, list[int]]:
-    """Return the lines `# YOUR CODE HERE` of each file below which the student wrote nothing; of the starter all."""
-    pattern = _PLACES if is_starter(submission, *notebooks) else _EMPTY_PLACES
-    found = {name: _lines_of(pattern, text) for name, text in submission.sources.items()}
-    return {name: lines for name, lines in found.items() if lines}
 
 
 def _lines_of(pattern: re.Pattern[str], text: str) -> list[int]:
