@@ -32,40 +32,39 @@ class CellNotice:
         self._drawing = threading.Lock()
         self._ended = threading.Event()
         # the context knows the cell
-        self._thread = threading.Thread(target=copy_context().run, args=(self._update,), daemon=True)
+        self._thread = threading.Thread(target=copy_context().run, args=(self._keep_drawing,), daemon=True)
 
     def __enter__(self) -> CellNotice:
         in_cell = hasattr(get_ipython(), "kernel") and threading.current_thread() is threading.main_thread()
-        self._is_shown = in_cell and _only_one.acquire(blocking=False)
-        if self._is_shown:
+        if in_cell and _only_one.acquire(blocking=False):
             self._thread.start()
         return self
 
     def __exit__(self, *_: object) -> None:
-        if not self._is_shown:
-            return
-        self._ended.set()
-        self._thread.join()
-        _only_one.release()
-        if self._shown:
+        if self._thread.ident:  # it was started
+            self._ended.set()
+            self._thread.join()
             self.show("")
+            _only_one.release()
 
     def show(self, text: str) -> None:
         """Replace the text; its time begins anew."""
-        with self._drawing:
-            self._text, self._since = text, time.monotonic()
-            if self._shown:
-                self._shown.update(self._content(), raw=True)
+        self._text, self._since = text, time.monotonic()
+        if self._shown:
+            self._draw()
 
-    def _update(self) -> None:
+    def _keep_drawing(self) -> None:
         pause = DELAY
         while not self._ended.wait(pause):
             pause = PERIOD
-            with self._drawing:
-                if self._shown:
-                    self._shown.update(self._content(), raw=True)
-                elif self._text:
-                    self._shown = display(self._content(), raw=True, display_id=True)
+            self._draw()
+
+    def _draw(self) -> None:
+        with self._drawing:
+            if self._shown:
+                self._shown.update(self._content(), raw=True)
+            elif self._text:
+                self._shown = display(self._content(), raw=True, display_id=True)
 
     def _content(self) -> dict[str, str]:
         """Return the text, which a screen reader reads once, and the seconds, which it does not read."""
