@@ -5,6 +5,5 @@ from __future__ import annotations
 Metres = float
 Radians = float
 Seconds = float
-MetresPerSecond = float
 
-UNITS = {"Metres": "m", "Radians": "rad", "Seconds": "s", "MetresPerSecond": "m/s"}  # by the name of a type
+UNITS = {"Metres": "m", "Radians": "rad", "Seconds": "s"}  # by the name of a type

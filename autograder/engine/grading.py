@@ -126,7 +126,6 @@ class _Session:
         self._scale = ClockScale(options.scale)
         self._watcher = watcher
         self._arenas = arenas
-        self._scenarios = list(dict.fromkeys(scenario for check in exercise.checks for scenario in check.on))
         self._visible = {scenario for check in exercise.checks if not check.hidden for scenario in check.on}
         self._stop = Stop(stop)
         self._verdicts: dict[str, CheckVerdict] = {}
