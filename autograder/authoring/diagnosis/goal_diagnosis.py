@@ -166,7 +166,7 @@ def why_no_result(goal: Goal) -> tuple[str, str]:
     if end and given_up and end.t > given_up.t:
         ended = f"the goal ended {name_of(GoalStatus, end.status)} {end.t - given_up.t:.1f} s later"
         return (
-            f"no result within {given_up.waited:g} s; {ended}",
+            f"no result within {given_up.waited:.0f} s; {ended}",
             "It takes too long: look for what it waits for.",
         )
     if status in _CALLS:
