@@ -42,7 +42,7 @@ def saved_work_warning(exercise: str, program: str, folder: Path = Path()) -> st
         return f"What a grader would take cannot be read: {error}"
     return (
         f"{saved.name}, which a grader would take, is saved with another program than the one checked here. "
-        "Next: save it (Ctrl+S), run its %%writefile cell, and check again."
+        "Next: run its %%writefile cell, save it (Ctrl+S), and check again."
     )
 
 

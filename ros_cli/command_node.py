@@ -24,13 +24,13 @@ from ros_cli.errors import print_message
 from ros_runtime.notebook_domains import expected_nodes
 from ros_runtime.reachability import UNKNOWN_NODE, wait_until_reachable
 
-SPIN_TIME = 0.5  # s, as in ros2cli
+SPIN_TIME = 1.0  # s; after 0.5 s, as in ros2cli, a busy machine has not found all nodes
 # Multiples of the spin time to wait while the wanted entity is missing: in an empty graph 5 s, because Fast DDS
 # repeats a lost announcement after 3 s; beside other nodes 3 s, in which a new node announces itself 30 times.
-MISSING_FACTOR = 10
-MISSING_BESIDE_OTHERS_FACTOR = 6
+MISSING_FACTOR = 5
+MISSING_BESIDE_OTHERS_FACTOR = 3
 NOTICE_AFTER = 0.5  # s without the wanted entity, after which a line names it
-DISCOVERY_LIMIT_FACTOR = 16  # multiple of the spin time; then discovery ends although the graph changes
+DISCOVERY_LIMIT_FACTOR = 8  # multiple of the spin time; then discovery ends although the graph changes
 QUERY_PERIOD = 0.02  # s between two queries of the graph, because rclpy does not report its changes
 ROSOUT = "/rosout"  # a topic that every node publishes
 
@@ -74,8 +74,8 @@ class CommandNode:
     def discover(self, is_there: Callable[[], bool] = lambda: True, wanted: str = "") -> None:
         """Wait until the graph has not changed for the spin time, and the names of all its nodes are known.
 
-        The wait is six times as long while `is_there` is false, and ten times while there is no other node. A line on
-        stderr names what is `wanted` while it is missing.
+        The wait is three times as long while `is_there` is false, and five times while there is no other node. A line
+        on stderr names what is `wanted` while it is missing.
         """
         changed = began = time.monotonic()
         latest = changed + DISCOVERY_LIMIT_FACTOR * self._spin_time

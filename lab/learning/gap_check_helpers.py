@@ -65,8 +65,9 @@ def last_error(log: str, file: str) -> str:
     traceback = log.rpartition("Traceback (most recent call last):")[2]
     frames = re.findall(r'File "([^"]+)", line (\d+), in (.+)\n +(.+)', traceback)
     own = [index for index, (path, *_) in enumerate(frames) if Path(path).name == file]
-    spins = own and any(function.startswith("spin") for *_, function, _ in frames[own[-1] + 1 :])
-    where = " in line {1} (`{3}`)".format(*frames[own[-1]]) if own and not spins else ""
+    deeper = frames[own[-1] + 1 :] if own else []
+    is_elsewhere = any(frame[2].startswith("spin") or frames[own[-1]][2] == "<module>" for frame in deeper)
+    where = " in line {1} (`{3}`)".format(*frames[own[-1]]) if own and not is_elsewhere else ""
     return f"{errors[-1]}{where}" if errors else ""
 
 

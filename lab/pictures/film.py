@@ -31,7 +31,7 @@ RATE = 12.5  # frames a second
 ON_ITS_PLACE = 0.05  # m, from the first place of the pelvis to the last
 MOVED = 0.1  # rad, between the lowest and the highest angle of a joint
 MAX_DURATION = 60.0  # s; such a film takes about 5 MB in the notebook
-DRAWING = "The film is being drawn, which takes about 10 s, on a busy machine longer."
+DRAWING = "The film is being drawn, which takes some seconds, on a busy machine longer."
 
 
 def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: str = "track") -> HTML:

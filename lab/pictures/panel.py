@@ -24,16 +24,15 @@ _STYLE = f"""<style>
 .course-live p {{ margin: 0.3em 0; }}
 .course-live .course-ended {{ visibility: hidden; animation: course-ended 0s {SILENCE}s forwards; font-weight: bold; }}
 .course-live img.jupyter-widgets-disconnected, .course-live.course-still img {{ opacity: 0.4; }}
-.course-lost, .course-live .jupyter-widgets-disconnected .course-said {{ display: none; }}
-.course-live .jupyter-widgets-disconnected .course-lost {{ display: block; }}
+.course-live .jupyter-widgets-disconnected .course-said {{ display: none; }}
+.course-live .jupyter-widgets-disconnected .course-ended {{ visibility: visible; }}
 .course-live.jupyter-widgets-disconnected::before, .course-live .jupyter-widgets-disconnected::before
 {{ display: none; }}
 @keyframes course-ended {{ to {{ visibility: visible; }} }}
 </style>"""
-_LOST = "There is no connection to the notebook's kernel, which starts or has ended."
 _ENDED = (
-    "This picture no longer moves: the notebook's kernel has ended, and its robot with it, or the notebook is closed. "
-    "Run the notebook's cell with lab.start_robot()."
+    "This picture no longer moves: there is no connection to the notebook's kernel. If that stays so, the kernel has "
+    "ended, and its robot with it, or the notebook is closed: run the notebook's cells again, from the first one."
 )
 
 
@@ -71,7 +70,7 @@ class Panel:
             self._written, self._next_beat = text, now + BEAT_PERIOD
             # the time makes every text a new one, so that the animation restarts
             ended = f'<p class="course-ended" data-time="{now:.1f}">{_ENDED}</p>'
-            said = f'<p class="course-said">{escape(text)}</p><p class="course-lost">{_LOST}</p>'
+            said = f'<p class="course-said">{escape(text)}</p>'
             self._text.value = f"{said}<p>The robot of {escape(self._notebook)}</p>{ended}"
 
     def close(self) -> None:

@@ -220,5 +220,5 @@ def _paused_simulation() -> Iterator[None]:
 GAPS = (
     Gap("monitor_fixed.py", receives_five_topics),
     Gap("robot_mode.py", receives_the_stored_state),
-    Gap("one_metre.py", walks_one_metre),
+    Gap("one_metre.py", walks_one_metre, duration=8),
 )

@@ -172,7 +172,6 @@ def test_the_robot_is_shown_beside_the_notebook_that_has_it(page: Page, folder: 
 
     restart_kernel(page)
     ended = page.get_by_text("This picture no longer moves")
-    page.get_by_text("There is no connection to the notebook's kernel").wait_for()
     ended.wait_for()
     icons = "parts => parts.map(part => getComputedStyle(part, '::before').display)"
     assert set(page.locator(".course-live .jupyter-widgets-disconnected").evaluate_all(icons)) == {"none"}

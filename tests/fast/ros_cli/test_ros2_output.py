@@ -207,8 +207,8 @@ def test_a_missing_name_is_looked_for_a_while_and_that_is_said(
     monkeypatch.setattr(
         "ros_cli.command_node.time.sleep", lambda seconds: clock.__setitem__(0, clock[0] + seconds)
     )
-    _OneTopic(spin_time=0.5).discover(lambda: topic == "/robot/odom", "it")
-    assert clock[0] == pytest.approx(3.0 if told else 0.5, abs=0.05)
+    _OneTopic(spin_time=1.0).discover(lambda: topic == "/robot/odom", "it")
+    assert clock[0] == pytest.approx(3.0 if told else 1.0, abs=0.05)
     assert capsys.readouterr().err == told
 
 
