@@ -15,7 +15,7 @@ make_environment() {
     fi
     exec 9>"$root/build/setup.lock"
     if ! flock -n 9; then
-        say "another ./course is setting up this clone; waiting until it has finished"
+        say "another ./course is setting up this folder; waiting until it has finished"
         flock 9
     fi
     state=$(environment_state)
