@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 
 import nbformat
@@ -16,7 +17,7 @@ import yaml
 from execution import CHAPTERS
 from kernels import CellError, Kernel
 
-from lab.learning.gap_cells import MAGIC, fill, fill_gaps, gaps_of
+from lab.learning.gap_cells import MAGIC, fill, fill_gaps, solution
 
 WRITEFILE = "%%writefile "
 TRIALS = Path(__file__).with_name("gaps")
@@ -57,8 +58,14 @@ class GapTrials:
 
     def __init__(self, chapter: str, folder: Path) -> None:
         notebook = nbformat.read(CHAPTERS / f"{chapter}.ipynb", as_version=4)
-        self._gaps = gaps_of(notebook)
-        self.solved = {file: fill(program, lines) for file, (program, lines) in self._gaps.items()}
+        self._solutions: dict[str, str] = {}
+        self.solved: dict[str, str] = {}
+        for cell, below in pairwise(notebook.cells):
+            if cell.source.startswith(MAGIC):
+                head, _, program = f"{cell.source}\n".partition("\n")
+                file = head.removeprefix(MAGIC)
+                self._solutions[file] = solution(below.source)
+                self.solved[file] = fill(program, self._solutions[file])
         fill_gaps(notebook)
         for cell in notebook.cells:
             for magic in (MAGIC, WRITEFILE):
@@ -75,7 +82,7 @@ class GapTrials:
 
     def require_reply(self, trial: Trial) -> None:
         """Fill the gap; the test fails if the reply is not as the trial says."""
-        lines = trial.lines_beside(self._gaps[trial.file][1])
+        lines = trial.lines_beside(self._solutions[trial.file])
         fill_in = self.accept if trial.says is None else self.reply
         printed, expected = fill_in(trial.file, lines), trial.says or f"✓ {trial.file}: "
         assert expected in printed, printed
