@@ -58,14 +58,12 @@ class GapTrials:
 
     def __init__(self, chapter: str, folder: Path) -> None:
         notebook = nbformat.read(CHAPTERS / f"{chapter}.ipynb", as_version=4)
-        self._solutions: dict[str, str] = {}
-        self.solved: dict[str, str] = {}
+        self._gaps: dict[str, tuple[str, str]] = {}  # program and solution
         for cell, below in pairwise(notebook.cells):
             if cell.source.startswith(MAGIC):
                 head, _, program = f"{cell.source}\n".partition("\n")
-                file = head.removeprefix(MAGIC)
-                self._solutions[file] = solution(below.source)
-                self.solved[file] = fill(program, self._solutions[file])
+                self._gaps[head.removeprefix(MAGIC)] = program, solution(below.source)
+        self.solved = {file: fill(program, lines) for file, (program, lines) in self._gaps.items()}
         fill_gaps(notebook)
         for cell in notebook.cells:
             for magic in (MAGIC, WRITEFILE):
@@ -82,7 +80,7 @@ class GapTrials:
 
     def require_reply(self, trial: Trial) -> None:
         """Fill the gap; the test fails if the reply is not as the trial says."""
-        lines = trial.lines_beside(self._solutions[trial.file])
+        lines = trial.lines_beside(self._gaps[trial.file][1])
         fill_in = self.accept if trial.says is None else self.reply
         printed, expected = fill_in(trial.file, lines), trial.says or f"✓ {trial.file}: "
         assert expected in printed, printed
