@@ -12,20 +12,20 @@ from ros_runtime.project import COURSE
 from ros_runtime.terminal import as_typed
 
 WARNING = "bold black on yellow"  # legible in a light notebook and in a dark one
-_HIDDEN = re.compile(r"Hidden check \d+ \((\d+) points?\)")
+_HIDDEN = re.compile(r"Hidden check (\d+) \((\d+) points?\)")
 
 
 def hidden_checks_notice(exercise: str) -> str:
     """Return how many hidden checks there are, and their points, as the exercise's notebook lists them."""
     notebook = COURSE / "exercises" / exercise / f"{exercise}.ipynb"
-    points = (
-        list(map(int, _HIDDEN.findall(notebook.read_text(encoding="utf-8")))) if notebook.exists() else []
-    )
+    text = notebook.read_text(encoding="utf-8") if notebook.exists() else ""
+    # by number, because tracebacks quote the notebook's lines
+    points = {number: int(worth) for number, worth in _HIDDEN.findall(text)}
     if not points:
         return ""
     return (
-        f"When your work is graded, {len(points)} hidden checks add {sum(points)} points: they judge the same clauses "
-        "in other situations."
+        f"When your work is graded, {len(points)} hidden checks add {sum(points.values())} points: they judge the same "
+        "clauses in other situations."
     )
 
 

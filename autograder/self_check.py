@@ -229,7 +229,7 @@ def _notice_in_notebook() -> AbstractContextManager[CellNotice | None]:
     # imported only if needed, because it loads IPython
     from ros_runtime.cell_notice import CellNotice
 
-    return CellNotice("The check begins: it saves the notebook and starts the robot.")
+    return CellNotice("The check begins: the notebook is saved, and your program is started.")
 
 
 def _notebook_table(exercise: Exercise) -> NotebookTable:

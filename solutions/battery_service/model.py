@@ -105,5 +105,5 @@ def _advice(call: Call, last: Any, differing: list[str]) -> str:
     if not set(MAIN_FIELDS) & set(differing):
         return f"Other fields differ from the message ({', '.join(differing[:4])}): {COPY_ALL}"
     if math.isclose(battery.percentage, last.percentage, abs_tol=0.01):
-        return f"Do not round any field: {COPY_ALL}"
+        return f"The percentage was rounded, or the stored message was changed after it had come: {COPY_ALL}"
     return f"Do not compute values of your own: {COPY_ALL}"

@@ -36,7 +36,7 @@ _SIGNS: dict[str, Remedy] = {
     r"in send_response\n(?s:.*)^TypeError$": Remedy(
         "Your service callback{of} returned nothing, or something other than the response. End every branch with "
         "`return response`.",
-        "02_services#first-intro",
+        "02_services#forget-intro",
     ),
     r"^AssertionError: The 'result' field must be a sub message": Remedy(
         "Your execute callback returned nothing, or something other than a Result: end every branch with "
