@@ -361,6 +361,7 @@ def test_the_keyboard_alone_leads_from_the_start_page_to_a_handed_in_exercise(
     page.get_by_text("7 of 7 points").wait_for()
 
     page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
+    require_saved(page)  # by the self-check, which takes the focus for a moment
     press("b")  # a cell below
     press("Enter")
     page.get_by_text("Mode: Edit").wait_for()
