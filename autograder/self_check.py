@@ -144,7 +144,7 @@ def check_with_progress(
 
     `arenas` are those of this submission, if one was opened ahead; `recordings` is a folder for recordings of the
     scenarios, if they are wanted, and `page` a file for a page to show. With another `robot` the checks have no points.
-    With the `notice` of a notebook's cell, the verdicts are a table of the notebook's page.
+    In a notebook, `notice` is the notice of the running cell, and the verdicts are shown as a table.
 
     Raises `UnusableSubmission`, `UnknownExercise`, `NoPage`, and `CourseError` if the exercise is not for the robot.
     """

@@ -20,7 +20,7 @@ _only_one = threading.Lock()  # of a step and its parts, the step says what goes
 
 
 class CellNotice:
-    """A text below the running cell, with the seconds that it has stood there; the end of the `with` block removes it.
+    """A text below the running cell and how long it has been shown, in s; the end of the `with` block removes it.
 
     It is not printed: nothing that reads the cell's output receives it. Outside a notebook, and in threads that the
     cell has started, nothing is shown.
@@ -67,7 +67,7 @@ class CellNotice:
                 self._shown = display(self._content(), raw=True, display_id=True)
 
     def _content(self) -> dict[str, str]:
-        """Return the text, which a screen reader reads once, and the seconds, which it does not read."""
+        """Return the text and the seconds; a screen reader announces the text once, and never the seconds."""
         seconds = int(time.monotonic() - self._since)
         html = f'<em role="status">{escape(self._text)}</em>'
         if seconds:

@@ -86,7 +86,7 @@ class LearnedWalker:
         self._heading = 0.0
         self._action = np.zeros(len(STANCE))
         self._phases: np.ndarray | None = None  # of the left and right foot while it walks, rad
-        self._makes_further_step = False  # although it shall stop
+        self._makes_further_step = False  # after a command to stop
         self._feet = [FootSensor(model, data, side) for side in SIDES]
         self._in_air = [0.0, 0.0]  # s, of each foot
         self.stands, self.steps = True, 0

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import ast
 import re
-from itertools import pairwise
 from pathlib import Path
 
 import nbformat
 import pytest
 
+from chapter_gaps import gaps_of
 from lab.learning.gap import read_gaps
-from lab.learning.gap_cells import MAGIC, fill, is_empty, is_python, solution
+from lab.learning.gap_cells import fill, is_empty, is_python
 from lab.learning.question import read_questions
 
 CHAPTERS = Path(__file__).resolve().parents[3] / "chapters"
@@ -171,15 +171,11 @@ def test_every_drawing_exists_and_has_an_alternative_text(name: str) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_its_gaps_are_empty_and_their_folded_solutions_are_a_few_lines(name: str) -> None:
-    files = []
-    for cell, below in pairwise(read(name).cells):
-        if cell.source.startswith(MAGIC):
-            head, _, program = f"{cell.source}\n".partition("\n")
-            file, lines = head.removeprefix(MAGIC), solution(below.source)
-            files.append(file)
-            assert is_empty(program), file
-            assert not is_empty(fill(program, lines)), file
-            assert 3 <= len(lines.splitlines()) <= 8, file
-            if is_python(file):
-                compile(fill(program, lines), file, "exec")
-    assert files == [gap.file for gap in read_gaps(name.partition("_")[2])]
+    gaps = gaps_of(read(name))
+    assert list(gaps) == [gap.file for gap in read_gaps(name.partition("_")[2])]
+    for file, (program, solution) in gaps.items():
+        assert is_empty(program), file
+        assert not is_empty(fill(program, solution)), file
+        assert 3 <= len(solution.splitlines()) <= 8, file
+        if is_python(file):
+            compile(fill(program, solution), file, "exec")

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from itertools import pairwise
 from pathlib import Path
 
 import nbformat
@@ -17,7 +16,8 @@ import yaml
 from execution import CHAPTERS
 from kernels import CellError, Kernel
 
-from lab.learning.gap_cells import MAGIC, fill, fill_gaps, solution
+from chapter_gaps import gaps_of
+from lab.learning.gap_cells import MAGIC, fill, fill_gaps
 
 WRITEFILE = "%%writefile "
 TRIALS = Path(__file__).with_name("gaps")
@@ -58,11 +58,7 @@ class GapTrials:
 
     def __init__(self, chapter: str, folder: Path) -> None:
         notebook = nbformat.read(CHAPTERS / f"{chapter}.ipynb", as_version=4)
-        self._gaps: dict[str, tuple[str, str]] = {}  # program and solution
-        for cell, below in pairwise(notebook.cells):
-            if cell.source.startswith(MAGIC):
-                head, _, program = f"{cell.source}\n".partition("\n")
-                self._gaps[head.removeprefix(MAGIC)] = program, solution(below.source)
+        self._gaps = gaps_of(notebook)
         self.solved = {file: fill(program, lines) for file, (program, lines) in self._gaps.items()}
         fill_gaps(notebook)
         for cell in notebook.cells:
