@@ -30,7 +30,7 @@ from autograder.lab_hour import share, unshare
 from autograder.recording.kept import Recordings, keep
 from autograder.report.console import NOTICE, LineConsole
 from autograder.report.running import RunningLine
-from autograder.report.table import grade_table, print_beginning, print_retry, print_verdict, summary
+from autograder.report.table import print_beginning, print_retry, print_verdict, summary
 from ros_runtime.course_error import CourseError
 from ros_runtime.self_checks import store_check
 from ros_runtime.terminal import as_typed
@@ -140,7 +140,7 @@ def check_with_progress(
     robot: str | None = None,
     notice: CellNotice | None = None,
 ) -> Grade:
-    """Check a student's file with the visible checks; print each verdict as soon as it is known, then the table.
+    """Check a student's file with the visible checks; print each verdict as soon as it is known, then the score.
 
     `arenas` are those of this submission, if one was opened ahead; `recordings` is a folder for recordings of the
     scenarios, if they are wanted, and `page` a file for a page to show. With another `robot` the checks have no points.
@@ -193,7 +193,7 @@ def check_with_progress(
             watcher = replace(watcher, on_evidence=_both(watcher.on_evidence, recorder.add))
         result = grade(submission, loaded, options, watcher, arenas=arenas)
     console.print()
-    console.print(Text(summary(result), style="bold") if table else grade_table(result))
+    console.print(Text(summary(result), style="bold"))
     if robot:
         passed = sum(verdict.status == "passed" for verdict in result.checks)
         said = (

@@ -55,6 +55,16 @@ def store_check(exercise: str, passed: int, total: int, program: str = "", file:
     _store(file, {KIND: {exercise: check}, PROGRAMS: {program: check} if program else {}})
 
 
+def submitted_files(file: Path = FILE) -> dict[str, str]:
+    """Return for exercises the file that `course submit` wrote, if it is still so, by its path from the course."""
+    paths = [file.parent / path for path in entries_of(file, SUBMITTED)]
+    return {
+        path.stem: os.path.relpath(path, file.parent.parent)
+        for path in paths
+        if path.is_file() and was_submitted(path, file)
+    }
+
+
 def was_submitted(path: Path, file: Path = FILE) -> bool:
     """Return whether `course submit` wrote a file as it is now."""
     return entries_of(file, SUBMITTED).get(_from_here(path, file)) == _digest(path)

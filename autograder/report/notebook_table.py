@@ -67,6 +67,9 @@ class NotebookTable:
         judged = [self._verdicts[check.id] for check in self._checks if check.id in self._verdicts]
         folded = {
             "passed": [verdict.title for verdict in judged if verdict.status == "passed"],
+            "not run": [
+                f"{verdict.title}. {verdict.help}" for verdict in judged if verdict.status == "not run"
+            ],
             "not judged yet": [check.title for check in self._checks if check.id not in self._verdicts],
         }
         template = ENVIRONMENT.get_template("self_check.html")

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from rich.console import Console, Group, RenderableType
+from rich.console import Console, RenderableType
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
@@ -85,24 +85,6 @@ def _near_the_failure(verdict: CheckVerdict) -> list[str]:
     timed = [(_LINE_TIME.match(line), line) for line in lines]
     near = [line for time, line in timed if time and at is not None and abs(float(time[1]) - at) <= NEAR_TIME]
     return (near or lines)[-LOG_LINES:]
-
-
-def grade_table(grade: Grade) -> RenderableType:
-    """Return a table with all verdicts of a grade, and its score."""
-    table = Table(title=f"{grade.exercise} · {grade.student}", title_justify="left", show_edge=False)
-    table.add_column("")
-    table.add_column("check", overflow="fold")
-    table.add_column("points", justify="right")
-    table.add_column("verdict")
-    for verdict in grade.checks:
-        mark, colour = MARKS[verdict.status]
-        table.add_row(
-            Text(mark, colour),
-            verdict.title + ("  (hidden)" if verdict.hidden else ""),
-            _points(verdict),
-            Text(SHOWN.get(verdict.status, verdict.status), colour),
-        )
-    return Group(table, Text(summary(grade), style="bold"))
 
 
 def summary(grade: Grade) -> str:

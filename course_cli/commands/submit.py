@@ -137,7 +137,8 @@ class _LeftToDo:
             )
         first = [f"{as_typed(f'check {exercise}')}; " for exercise in self.unchecked]
         first += [f"remove {path} unless it is what you mean to hand in; " for path in self.foreign]
-        return f"Next: {'then '.join([*first, ''])}hand in what is in {out}/, unchanged."
+        place = f"{out}/, the folder beside exercises/" if ".." in out.parts else f"{out}/"
+        return f"Next: {'then '.join([*first, ''])}hand in what is in {place}, unchanged."
 
 
 def _write(

@@ -16,7 +16,7 @@ from lab.errors import NoAnswerError, NoServerError, NotInTimeError
 from lab.running.node_diagnosis import (
     all_have_failed,
     server_of,
-    what_nodes_lack,
+    what_is_missing,
     why_not_connected,
     why_not_offered,
     why_silent,
@@ -54,8 +54,9 @@ def wait_until(
         when = f"{abs(fell - began):.1f} s {'after' if fell > began else 'before'} this wait began"
         message += f". The robot lies: it fell {when}. lab.restart_robot() sets it up again."
     nodes = started_nodes()
+    running = [node.file for node in nodes if node.is_running]
     raise NotInTimeError(
-        message + (why_they_ended(nodes) or what_nodes_lack(nodes) or why_not_connected(nodes))
+        message + (why_they_ended(nodes) or what_is_missing(running) or why_not_connected(nodes))
     )
 
 

@@ -13,7 +13,7 @@ from lab.learning.contents import CHAPTERS, Chapter, Exercise, read_contents
 from lab.learning.gap import read_gaps
 from lab.learning.progress_file import read_entries
 from lab.learning.question import Question, read_questions
-from ros_runtime.self_checks import LastCheck, last_checks
+from ros_runtime.self_checks import LastCheck, last_checks, submitted_files
 
 HEADS = ("Chapter and its exercises", "Min.", "Predictions", "Quiz", "Gaps")
 LEFT = "style='text-align: left; white-space: nowrap'"
@@ -35,11 +35,15 @@ class Part:
 
 @dataclass(frozen=True)
 class ChapterProgress:
-    """Progress in one chapter; `exercises` has None for an exercise that was never checked."""
+    """Progress in one chapter; `exercises` has None for an exercise that was never checked.
+
+    `submitted` has the file to hand in of each exercise that has one.
+    """
 
     chapter: Chapter
     parts: Mapping[str, Part]
     exercises: Sequence[tuple[Exercise, LastCheck | None]]
+    submitted: Mapping[str, str]
 
     @property
     def begun(self) -> bool:
@@ -54,8 +58,8 @@ class ChapterProgress:
 
 def read_progress() -> list[ChapterProgress]:
     """Return the progress in each chapter, as it is stored beside the chapters and the exercises."""
-    checks = last_checks()
-    return [_of_chapter(chapter, checks) for chapter in read_contents()]
+    checks, submitted = last_checks(), submitted_files()
+    return [_of_chapter(chapter, checks, submitted) for chapter in read_contents()]
 
 
 def next_step(chapters: Sequence[ChapterProgress]) -> tuple[str, Path]:
@@ -75,7 +79,9 @@ def next_step(chapters: Sequence[ChapterProgress]) -> tuple[str, Path]:
     return "All done. Have another look at", chapters[-1].chapter.notebook
 
 
-def _of_chapter(chapter: Chapter, checks: Mapping[str, LastCheck]) -> ChapterProgress:
+def _of_chapter(
+    chapter: Chapter, checks: Mapping[str, LastCheck], submitted: Mapping[str, str]
+) -> ChapterProgress:
     predictions = read_questions(chapter.name, "predictions")
     questions = read_questions(chapter.name, "questions")
     predicted = _choices(read_entries("predictions", CHAPTERS), predictions)
@@ -90,6 +96,7 @@ def _of_chapter(chapter: Chapter, checks: Mapping[str, LastCheck]) -> ChapterPro
             "Gaps": Part(sum(gap.file in filled for gap in gaps), len(gaps)),
         },
         exercises=[(exercise, checks.get(exercise.name)) for exercise in chapter.exercises],
+        submitted=submitted,
     )
 
 
@@ -120,7 +127,10 @@ class ProgressTable:
         for row in self.chapters:
             parts = ", ".join(f"{name.lower()} {part}" for name, part in row.parts.items())
             lines.append(f"{row.chapter.title}: {parts}")
-            lines += [f"    {exercise.name}: {_in_words(check)}" for exercise, check in row.exercises]
+            lines += [
+                f"    {exercise.name}: {_in_words(check)}{_submitted(row, exercise)}"
+                for exercise, check in row.exercises
+            ]
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
@@ -141,7 +151,8 @@ def _rows(row: ChapterProgress) -> Iterator[str]:
     yield f"<td {NAME}>{_link(row.chapter.notebook, row.chapter.title)}</td><td>{row.chapter.minutes}</td>{parts}"
     for exercise, check in row.exercises:
         name = f"<td {INDENTED}>{_link(exercise.notebook, exercise.name)}</td><td>{exercise.minutes}</td>"
-        yield f"{name}<td {LEFT} colspan='{len(row.parts)}'>{_checked(exercise, check)}</td>"
+        done = _checked(exercise, check) + escape(_submitted(row, exercise))
+        yield f"{name}<td {LEFT} colspan='{len(row.parts)}'>{done}</td>"
 
 
 def _bar(part: Part, what: str) -> str:
@@ -160,6 +171,11 @@ def _checked(exercise: Exercise, check: LastCheck | None) -> str:
 
 def _in_words(check: LastCheck | None) -> str:
     return f"{check.passed}/{check.total} checks passed, {_when(check)}" if check else "not checked yet"
+
+
+def _submitted(row: ChapterProgress, exercise: Exercise) -> str:
+    file = row.submitted.get(exercise.name)
+    return f"; to hand in: {file}" if file else ""
 
 
 def _when(check: LastCheck) -> str:

@@ -11,6 +11,7 @@ from IPython.display import HTML
 
 from lab.pictures.labels import FONT_SIZE
 from lab.pictures.picture import figure
+from ros_runtime.cell_notice import notice
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,9 +37,9 @@ _STYLE = {
 @contextmanager
 def sheet(width: float, height: float, title: str) -> Iterator[Figure]:
     """Make a figure with a title in the style of the lab; `width` and `height` are in inches."""
-    import matplotlib
-    from matplotlib.figure import Figure  # takes a while to import, and most notebooks draw nothing
-
+    with notice("The first plot loads matplotlib, which takes some seconds."):
+        import matplotlib
+        from matplotlib.figure import Figure
     with matplotlib.rc_context(_STYLE):
         page = Figure((width, height), facecolor="white")
         page.text(0.12 / width, 1 - 0.1 / height, title, va="top", fontsize=FONT_SIZE + 2, fontweight="bold")

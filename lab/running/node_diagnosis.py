@@ -51,9 +51,9 @@ def why_they_ended(nodes: Iterable[StudentNode]) -> str:
     )
 
 
-def what_nodes_lack(nodes: Iterable[StudentNode]) -> str:
-    """Return where nothing is written yet below `# YOUR CODE HERE` in running nodes, each in a line; "" if nowhere."""
-    found = [what_is_to_be_written(*_program(node.file)) for node in nodes if node.is_running]
+def what_is_missing(programs: Iterable[Path]) -> str:
+    """Return where nothing is written yet below `# YOUR CODE HERE` in programs, each in a line; "" if nowhere."""
+    found = [what_is_to_be_written(*_program(file)) for file in programs]
     return "".join(f"\n{sentence}" for sentence in found if sentence)
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from autograder.authoring.diagnosis.exit_diagnosis import remedy_for_a_traceback
 from lab.client.connection import connection
+from lab.running.node_diagnosis import what_is_missing
 from lab.running.processes import Process, ProcessHistory
 from lab.running.student_nodes import existing_file, in_namespace
 
@@ -103,7 +104,10 @@ class Program:
     def __str__(self) -> str:
         lines = (self.stdout + self.stderr).replace(f"{self.file.resolve().parent}/", "").splitlines()
         remedy = remedy_for_a_traceback(self.stderr) if self.exit_status else None
-        return "\n    ".join([repr(self), *lines]) + (f"\n{remedy.help}" if remedy else "")
+        help = f"\n{remedy.help}" if remedy else ""
+        if not lines and not self._process.is_running:
+            help = f"\nIt printed nothing.{what_is_missing([self.file])}"
+        return "\n    ".join([repr(self), *lines]) + help
 
     def _state(self) -> str:
         if self.stopped:

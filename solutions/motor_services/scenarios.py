@@ -80,7 +80,7 @@ def in_order(stage: Stage, steps: Steps, interrupt: bool = False) -> None:
             "ask": "{number} × get_status",
             "switch_and_ask": "{switches} × enable_motors data {on} and at once {questions} × get_status",
             "switch_elsewhere": "another node publishes {on} on motor_power",
-            "publish_state": "the grader lets the robot publish robot_state: {published}",
+            "publish_state": "the robot publishes robot_state: {published}",
             "settle": "wait for the effect",
         },
     )

@@ -55,7 +55,7 @@ class Call:
         waited = given_up.waited if given_up else self.run.end - self.sent.t
         raise Failure(
             expected=f"an answer to {self.service}" + (f" within {limit:g} s" if limit else ""),
-            observed=f"none after {waited:.0f} s of waiting{self._nor_to_others()}{self._meanwhile(waited)}",
+            observed=f"none after {waited:.0f} s of waiting{self._nor_to_others()}",
             help=remedy.help,
             at=self.sent.t,
             see=remedy.see,
@@ -67,14 +67,6 @@ class Call:
         return (
             f"; none of all {len(asked)} requests was answered" if len(asked) > 1 and answered is None else ""
         )
-
-    def _meanwhile(self, waited: float) -> str:
-        """Return a note on the robot's topic that was published meanwhile: the callback did not lack a message."""
-        for kind, topic in ((ev.BatteryPublished, "battery_state"), (ev.JointsPublished, "joint_states")):
-            times = sum(self.sent.t < message.t < self.sent.t + waited for message in self.run.all(kind))
-            if times:
-                return f"; the robot published {topic} {times} times meanwhile"
-        return ""
 
     @property
     def latency(self) -> float:

@@ -113,6 +113,6 @@ def print_ungraded(console: Console, collection: Collection, results: Iterable[G
     if not_graded:
         console.print(
             f"{not_graded} not graded; grade them again with --resume --jobs 1, when the machine is less busy",
-            style="magenta",
+            style=NOTICE,
         )
     return not_graded

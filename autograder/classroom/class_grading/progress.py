@@ -16,6 +16,7 @@ from rich.text import Text
 from autograder.classroom.batch.job import GradingJob, Outcome
 from autograder.classroom.batch.runner import Graded
 from autograder.engine.verdict import CheckVerdict
+from autograder.report.console import NOTICE
 from autograder.report.table import progress_line
 
 MAX_LISTED_JOBS = 8  # running submissions that are listed
@@ -93,7 +94,7 @@ class BatchProgress:
         self._console.print(
             f"{job.student} · {job.exercise}  not graded yet, will be retried alone at the end: "
             f"{outcome.grade.why_not_graded}",
-            style="magenta",
+            style=NOTICE,
             markup=False,
             soft_wrap=True,
         )

@@ -16,7 +16,7 @@ from autograder.classroom.class_grading.class_files import ClassFiles
 from autograder.classroom.class_grading.output import add_all, print_summary
 from autograder.classroom.dates import read_deadlines
 from autograder.recording.kept import FOLDER as RECORDINGS
-from autograder.report.console import BAD
+from autograder.report.console import BAD, NOTICE
 from course_cli.ending import batch_status
 from course_cli.options import CourseOption, DatesOption
 
@@ -47,6 +47,6 @@ def merge(
         console.print(f"missing: {line}", style=BAD, markup=False)
     not_graded = sum(grade.status == "not graded" for grade in files.grades)
     if not_graded:
-        console.print(f"{not_graded} not graded; grade their shards again with --resume", style="magenta")
+        console.print(f"{not_graded} not graded; grade their shards again with --resume", style=NOTICE)
     complete = is_entered and not merged.missing
     raise typer.Exit(batch_status(not_graded=not_graded, complete=complete))

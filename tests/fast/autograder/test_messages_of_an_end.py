@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from sensor_msgs.msg import BatteryState
 
 from autograder.authoring.diagnosis.service_callback import with_callback
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.requirements.standard import exits_with_status_0
-from records import answered, asked, failure_of, given_up, run_of, said, stack
+from records import answered, asked, failure_of, run_of, said, stack
 
 NO_RETURN = said(
     "Traceback (most recent call last):",
@@ -100,16 +99,6 @@ def test_for_a_program_that_ignores_ctrl_c_the_running_line_is_reported() -> Non
 def test_a_crash_below_python_is_named() -> None:
     run = run_of(asked(), *said("Extension modules: rclpy"), ev.NodeExited(t=3.1, returncode=-11))
     assert failure_of(lambda: run.call("first").response).help.startswith("SIGSEGV ended the program")
-
-
-def test_for_a_silent_server_its_continuing_topic_is_reported() -> None:
-    published = [ev.BatteryPublished(t=2.5 + second, message=BatteryState()) for second in range(4)]
-    failure = failure_of(
-        lambda: run_of(asked(), *published, given_up("call", "first")).call("first").response
-    )
-    assert (
-        failure.observed == "none after 5 s of waiting; the robot published battery_state 4 times meanwhile"
-    )
 
 
 def test_a_server_that_ends_by_itself_is_advised_to_spin() -> None:

@@ -17,7 +17,7 @@ from lab.running.node_diagnosis import (
     how_it_ended,
     own_output,
     server_of,
-    what_nodes_lack,
+    what_is_missing,
     where_blocked,
     why_silent,
 )
@@ -171,14 +171,16 @@ def test_an_exception_that_has_not_ended_the_node_is_reported(start: Callable[..
     assert why_silent(node) == "status.py still runs, but has printed ZeroDivisionError: division by zero."
 
 
-def test_places_below_which_nothing_is_written_are_named(start: Callable[..., StudentNode]) -> None:
-    node = start(f"{STARTER}print('up', flush=True)\ntime.sleep(60)\n")
-    assert becomes_true(lambda: "up" in node.log(), 10.0)
-    assert what_nodes_lack([node]) == (
-        "\nstatus.py is as the starter leaves it below `# YOUR CODE HERE` in lines 3 and 13: write your code there."
+def test_places_below_which_nothing_is_written_are_named(tmp_path: Path) -> None:
+    file = tmp_path / "status.py"
+    file.write_text(STARTER, encoding="utf-8")
+    place = "lines 3 and 13"
+    missing = (
+        f"\nstatus.py is as the starter leaves it below `# YOUR CODE HERE` in {place}: write your code there."
     )
-    node.kill()
-    assert what_nodes_lack([node]) == ""
+    assert what_is_missing([file]) == missing
+    program = Program(file, Process([str(file)], own_stderr=True)).wait()
+    assert str(program) == f"{program!r}\nIt printed nothing.{missing}"
 
 
 def test_a_node_whose_callbacks_return_is_not_blocked(start: Callable[..., StudentNode]) -> None:
@@ -190,22 +192,22 @@ def test_a_node_whose_callbacks_return_is_not_blocked(start: Callable[..., Stude
 
 
 @pytest.fixture
-def released(tmp_path: Path) -> SimpleNamespace:
-    """A node that runs the untouched starter of `battery_service`, beside its notebook."""
+def released(tmp_path: Path) -> Path:
+    """The untouched starter of `battery_service`, beside its notebook."""
     notebook = (COURSE / "exercises/battery_service/battery_service.ipynb").read_bytes()
     (tmp_path / "battery_service.ipynb").write_bytes(notebook)
     file = tmp_path / "battery_service.py"
     file.write_text(given_in(notebook)[file.name], encoding="utf-8")
-    return SimpleNamespace(file=file, is_running=True, names=[], exit_status=None, was_stopped=False)
+    return file
 
 
 @pytest.mark.usefixtures("graph")
-def test_all_places_of_an_untouched_starter_are_named(released: SimpleNamespace) -> None:
-    assert "in lines 19 and 26: " in what_nodes_lack([released])
-    program = released.file.read_text(encoding="utf-8")
+def test_all_places_of_an_untouched_starter_are_named(released: Path) -> None:
+    assert "in lines 19 and 26: " in what_is_missing([released])
+    program = released.read_text(encoding="utf-8")
     head, _, tail = program.rpartition("# YOUR CODE HERE")
-    released.file.write_text(f"{head}response.available = True{tail}", encoding="utf-8")
-    assert what_nodes_lack([released]) == ""
+    released.write_text(f"{head}response.available = True{tail}", encoding="utf-8")
+    assert what_is_missing([released]) == ""
 
 
 @pytest.fixture

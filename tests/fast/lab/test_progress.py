@@ -15,7 +15,14 @@ from lab.learning.gap import read_gaps
 from lab.learning.prediction import predict
 from lab.learning.progress_file import store_entry
 from lab.learning.question import read_questions
-from ros_runtime.self_checks import FILE, LastCheck, last_checks, store_check
+from ros_runtime.self_checks import (
+    FILE,
+    LastCheck,
+    last_checks,
+    store_check,
+    store_submitted,
+    submitted_files,
+)
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -112,6 +119,22 @@ def test_the_last_self_check_is_kept_above_the_exercises(tmp_path: Path) -> None
     }
     assert list((tmp_path / "battery_service").iterdir()) == []
     assert FILE.parent == ROOT / "exercises"
+
+
+def test_a_file_to_hand_in_is_shown_beside_its_exercise_while_it_is_as_submitted(
+    checks: dict[str, LastCheck], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "exercises" / ".progress.json"
+    notebook = tmp_path / "hand_in" / "patterns.ipynb"
+    for folder in (file.parent, notebook.parent):
+        folder.mkdir()
+    notebook.write_text("{}")
+    store_submitted(notebook, file)
+    monkeypatch.setattr(progress, "submitted_files", lambda: submitted_files(file))
+    assert "patterns: not checked yet; to hand in: hand_in/patterns.ipynb" in repr(lab.show_progress())
+    assert "not checked yet; to hand in: hand_in/patterns.ipynb</td>" in lab.show_progress()._repr_html_()
+    notebook.write_text("{ }")
+    assert submitted_files(file) == {}
 
 
 @pytest.mark.parametrize("damaged", ["", "[]", '{"checks": 1}', '{"checks": {"battery_service": {}}}'])

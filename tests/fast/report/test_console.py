@@ -65,5 +65,5 @@ def test_a_broken_line_keeps_its_colours() -> None:
 
 @pytest.mark.parametrize("colour", [GOOD, BAD, NOTICE, OTHER])
 def test_no_colour_vanishes_on_white_or_on_black(colour: str) -> None:
-    assert not {"yellow", "cyan", "white", "black"} & set(colour.split())
+    assert not {"yellow", "cyan", "magenta", "white", "black"} & set(colour.split())
     assert colour not in ("red", "blue")

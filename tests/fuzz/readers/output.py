@@ -18,7 +18,7 @@ from autograder.engine.exercise import load_exercise
 from autograder.engine.judging import judge
 from autograder.engine.verdict import LENGTH_NOTE, LONGEST, CheckVerdict, Grade
 from autograder.isolation.captured_output import CapturedOutput, OutputLine
-from autograder.report.table import class_table, grade_table, print_verdict
+from autograder.report.table import class_table, print_verdict
 from fuzz import strategies as odd
 from fuzz.fuzzer import Fuzzer
 
@@ -70,7 +70,6 @@ def require_harmless_pages(words: tuple[str, str, str, str]) -> None:
     assert Grade.from_json(grade.to_json()) == grade
     console = Console(file=io.TextIOWrapper(io.BytesIO(), "utf-8", errors="backslashreplace"), width=100)
     print_verdict(console, verdict)
-    console.print(grade_table(grade))
     console.print(class_table([grade]))
     with tempfile.TemporaryDirectory() as folder:
         write_submission_pages(Path(folder), grade, {})
