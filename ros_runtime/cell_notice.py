@@ -13,8 +13,8 @@ from typing import Any
 from IPython.core.getipython import get_ipython
 from IPython.display import display
 
-DELAY = 0.8  # s; a step that ends sooner needs no notice
-PERIOD = 1.0  # s between two updates of the time
+DELAY = 0.5  # s; a step that ends sooner needs no notice
+PERIOD = 0.5  # s between two updates of the time
 
 _only_one = threading.Lock()  # of a step and its parts, the step says what goes on
 

@@ -8,9 +8,11 @@ from typing import Any
 
 from geometry_msgs.msg import Twist
 
+from lab.client import topics
 from lab.client.connection import NAMESPACE, connection
 from lab.client.waiting import becomes_true
 from lab.errors import NoRobotError
+from ros_runtime.cell_notice import notice
 
 COMMAND_PERIOD = 0.1  # s; the robot stops by itself 0.5 s after the last command
 
@@ -21,7 +23,9 @@ def publish(topic: str, message: Any, *, timeout: float = 5.0) -> None:
     Raises NoRobotError when there is no subscriber within `timeout` s.
     """
     publisher = _publisher(topic, type(message))
-    if not becomes_true(lambda: publisher.get_subscription_count() > 0, timeout):
+    with notice(f"This waits up to {timeout:g} s for a node that subscribes to {topic}."):
+        is_matched = becomes_true(lambda: publisher.get_subscription_count() > 0, timeout)
+    if not is_matched:
         raise NoRobotError(
             f"no node has subscribed to {NAMESPACE}/{topic} with type {type(message).__name__} within {timeout:g} s. "
             "Start the robot with lab.start_robot(), and check the topic's name and type."
@@ -35,7 +39,10 @@ def walking(forward: float = 0.0, sideways: float = 0.0, turn: float = 0.0) -> I
 
     `forward` and `sideways` are in m/s, `turn` is in rad/s; left is positive. The velocity is published on cmd_vel ten
     times a second, because the robot stops when it receives no command for 0.5 s.
+
+    Raises NoRobotError when no robot is running.
     """
+    topics.robot_state()  # raises where no robot publishes it
     command = Twist()
     command.linear.x, command.linear.y, command.angular.z = float(forward), float(sideways), float(turn)
     publish("cmd_vel", command)

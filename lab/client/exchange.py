@@ -40,19 +40,21 @@ def wait_until(
 ) -> None:
     """Block until `condition()` is true; `what` names the condition in the error, which shows `seen()` instead.
 
-    A notice says what is awaited, and whether the robot lies at the beginning. Raises NotInTimeError after `timeout` s;
-    it also says if the robot lies, why nodes have ended, what is still to be written in one that runs, and why it
-    receives no messages.
+    A notice says what is awaited, and whether the robot lies, or is gone, at the beginning. Raises NotInTimeError after
+    `timeout` s; it also says if the robot lies, or is gone, why nodes have ended, what is still to be written in one
+    that runs, and why it receives no messages.
     """
     began = time.monotonic()
-    lies = f" {LIES}" if topics.fell_at() else ""
-    with notice(f"This waits up to {timeout:g} s for: {what}.{lies}"):
+    taken = topics.taken_robot()
+    remark = LIES if topics.fell_at() else f"But {taken}." * bool(taken)
+    with notice(f"This waits up to {timeout:g} s for: {what}. {remark}".rstrip()):
         if becomes_true(condition, timeout):
             return
     message = f"{what}: not within {timeout:g} s" + (f", but {seen() or 'an empty text'!r}" if seen else "")
     if fell := topics.fell_at():
         when = f"{abs(fell - began):.1f} s {'after' if fell > began else 'before'} this wait began"
         message += f". The robot lies: it fell {when}. lab.restart_robot() sets it up again."
+    message += f"; {taken}" * bool(taken)
     nodes = started_nodes()
     running = [node.file for node in nodes if node.is_running]
     raise NotInTimeError(

@@ -94,6 +94,23 @@ def fell_at() -> float | None:
     return stored.mode_changed_at if lies else None
 
 
+def taken_robot() -> str:
+    """Return that another notebook's robot has replaced the one of this notebook, and what to do; "" if not."""
+    if (other := robot_of_another_notebook()) and _last_messages().age("robot_state") > MAX_AGE:
+        return (
+            f"the robot of this notebook ended when {other.notebook} started one: you have one robot at a time. "
+            "lab.start_robot() brings it back"
+        )
+    return ""
+
+
+def forget_messages() -> None:
+    """Drop the messages of a robot that was stopped."""
+    stored = _last_messages()
+    stored.messages.clear()
+    stored.reset_at = -math.inf
+
+
 def latest(topic: str, timeout: float = 5.0) -> Any:
     """Return the last message on one of the robot's topics; if it is older than a second, wait for a new one.
 
@@ -106,11 +123,8 @@ def latest(topic: str, timeout: float = 5.0) -> Any:
 
     if is_current():
         return stored.messages[topic][0]
-    if other := robot_of_another_notebook():
-        raise NoRobotError(
-            f"the robot of this notebook ended when {other.notebook} started one: you have one robot at a time. "
-            "lab.start_robot() brings it back"
-        )
+    if taken := taken_robot():
+        raise NoRobotError(taken)
     waits = f"No message arrives on {NAMESPACE}/{topic}: this waits up to {timeout:g} s for a robot that publishes it."
     with notice(waits):
         arrives = becomes_true(is_current, timeout)

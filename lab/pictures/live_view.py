@@ -23,7 +23,7 @@ from ros_runtime.workarounds.gl_backend import NoOpenGLError
 
 MAX_FRAME_RATE = 12.0  # Hz
 MAX_DRAWING_SHARE = 0.4  # of the time; the rest is left for the notebook's other threads
-MESSAGE_TIMEOUT = 1.5  # s
+MESSAGE_TIMEOUT = 0.5  # s
 FIRST_FRAME_TIMEOUT = 20.0  # s
 PANEL_SIZE = 360, 480  # px, a narrow panel is higher than wide
 NO_MESSAGE = "No message comes from the robot. If it was stopped, lab.start_robot() starts it."

@@ -118,3 +118,4 @@ def stop_robot() -> None:
     if _robot is not None:
         _robot.stop()
         _robot = None
+        topics.forget_messages()

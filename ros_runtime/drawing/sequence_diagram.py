@@ -96,18 +96,19 @@ def _lifeline(name: str, x: int, lane_width: int, height: int) -> list[str]:
 
 def _arrow(arrow: Arrow, centre: dict[str, int], y: int) -> list[str]:
     start, end, colour = centre[arrow.sender], centre[arrow.receiver], COLOURS[arrow.kind]
+    halo = 'stroke="#ffffff" stroke-width="4" paint-order="stroke"'  # lifelines do not cross letters
     time = f'<text x="12" y="{y + 4}" fill="#595959" font-size="12">{arrow.time:.2f} s</text>'
     if start == end:
         return [
             time,
             f'<circle cx="{start}" cy="{y}" r="4" fill="{colour}"/>',
-            f'<text x="{start + NOTE_GAP}" y="{y + 4}" fill="{colour}">{escape(arrow.label)}</text>',
+            f'<text x="{start + NOTE_GAP}" y="{y + 4}" fill="{colour}" {halo}>{escape(arrow.label)}</text>',
         ]
     back = -8 if end > start else 8
     middle = (start + end) // 2
     lines = _lines(arrow)
     first = y - 5 - LINE_HEIGHT * (len(lines) - 1)
-    style = f'text-anchor="middle" fill="{colour}"'
+    style = f'text-anchor="middle" fill="{colour}" {halo}'
     return [
         time,
         f'<line x1="{start}" y1="{y}" x2="{end}" y2="{y}" stroke="{colour}" stroke-width="1.5"{DASHES[arrow.kind]}/>',

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from sensor_msgs.msg import BatteryState
+
 from autograder.authoring import (
     BATTERY,
     Call,
@@ -95,6 +97,8 @@ def says_when_it_knows_nothing(call: Call) -> str | None:
 
 def _advice(call: Call, last: Any, differing: list[str]) -> str:
     battery = call.response.battery
+    if not differing_fields(battery, BatteryState()):
+        return why_no_message_arrives(call.run, "battery_state") or f"battery is still empty: {COPY_ALL}"
     earlier = [each.message for each in call.run.all(ev.BatteryPublished) if each.t < call.sent.t]
     if math.isnan(battery.percentage):
         return f"available is true, but the numbers are NaN as before the first message: {COPY_ALL}"

@@ -307,8 +307,8 @@ def power_in_time(call: Call) -> str:
     limit = UNCONFIRMED_TIMEOUT if waits else IN_TIME
     call.require(
         call.latency <= limit,
-        expected=f"a response to {question(call)}, {_which(call)}, within {limit:g} s",
-        observed=f"the response took {call.latency:.2f} s",
+        expected=f"a response to {question(call)} within {limit:g} s",
+        observed=f"the response to {_which(call)} took {call.latency:.2f} s",
         help="Publish and return the response: do not sleep in the callback, as other callbacks need its thread."
         if not waits
         else "The robot does not confirm this request. If the callback sleeps, remove that, as no other callback runs "

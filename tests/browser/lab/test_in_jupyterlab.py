@@ -269,7 +269,8 @@ def test_arrow_keys_stay_in_their_question_and_escape_leads_back_to_its_cell(
     restart_kernel(page)
     output = page.locator(".jp-OutputArea-output:has(> .jupyter-widgets-disconnected)").last
     output.wait_for()
-    assert "run this cell again" in output.evaluate("output => getComputedStyle(output, '::after').content")
+    advice = output.evaluate("output => getComputedStyle(output, '::after').content")
+    assert "run all cells from the first one" in advice
     icons = "parts => parts.map(part => getComputedStyle(part, '::before').display)"
     assert set(output.locator(".jupyter-widgets-disconnected").evaluate_all(icons)) == {"none"}
 
@@ -311,7 +312,9 @@ def test_questions_plots_and_drawings_suit_both_themes(page: Page, folder: Path,
     page.get_by_text("GapError: merged.py").first.wait_for()
     in_both_themes(page, left_out=UNNAMED_SLIDER)
     ended = page.get_by_text("model not found")
-    assert "Run this cell again." in ended.evaluate("ended => getComputedStyle(ended, '::after').content")
+    assert "Run all cells from the first one." in ended.evaluate(
+        "ended => getComputedStyle(ended, '::after').content"
+    )
     assert page.locator(".jp-OutputArea-child:visible", has=page.locator("pre:empty")).count() == 0
     for drawing in page.locator(".course-drawing, .jp-RenderedMarkdown img").all():
         assert "invert" in drawing.evaluate("drawing => getComputedStyle(drawing).filter")

@@ -142,4 +142,5 @@ def test_a_late_response_is_named_by_its_data_and_its_number() -> None:
     ]
     run = run_of(*truth(), *switch("on", True, 4.0), *late)
     failure = failure_of(MOTORS.power_in_time.require, run.call("off"))
-    assert failure.expected.startswith("a response to enable_motors (data: false), request 2 of 2, within")
+    assert failure.expected.startswith("a response to enable_motors (data: false) within")
+    assert failure.observed.startswith("the response to request 2 of 2 took")

@@ -214,6 +214,7 @@ def test_all_places_of_an_untouched_starter_are_named(released: Path) -> None:
 def alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """A notebook without a robot."""
     monkeypatch.setattr(topics, "fell_at", lambda: None)
+    monkeypatch.setattr(topics, "taken_robot", str)
     monkeypatch.setattr("lab.client.exchange.started_nodes", list)
 
 

@@ -16,6 +16,7 @@ const NAMELESS = ".widget-radio-box input[type=radio]:not([name])";
 const OUTPUT = ".jp-OutputArea-output:not([tabindex])";
 const WIDE = `:is(${OUTPUT}, ${OUTPUT} > details) > svg.course-drawing`;
 const REPLY = /^prediction_\d+\.reply\(\)/m; // the cell after an experiment
+const NEW_SECTION = /^## /;
 const NEW_TASK = /^(#+ |%%)/; // a heading, or a program to write
 
 let groups = 0; // of radio buttons, so far
@@ -73,14 +74,20 @@ function keepKeys(event, shell) {
   if (key === "Escape" && isIn(".jp-OutputArea *")) shell.currentWidget?.content?.activeCell?.node.focus();
 }
 
-// The text below a prediction's reply tells the outcome; it appears when the reply has run (custom.css hides it).
+// The texts of a section below a prediction's reply tell the outcome; they appear when the reply has run, and so have the
+// cells between the reply and the text (custom.css hides them).
 function hideOutcomes(notebook) {
-  let hidden = false;
+  let [isAwaited, isNear, isSkipped] = [false, false, false];
   for (const cell of notebook.widgets) {
-    const { outputs, sharedModel, type } = cell.model;
-    if (REPLY.test(sharedModel.source)) hidden = !outputs?.length || JSON.stringify(outputs.toJSON()).includes(NO_CHOICE);
-    else if (NEW_TASK.test(sharedModel.source)) hidden = false;
-    cell.toggleClass("course-outcome", hidden && type === "markdown");
+    const { executionCount, outputs, sharedModel, type } = cell.model;
+    if (REPLY.test(sharedModel.source)) {
+      isAwaited = !outputs?.length || JSON.stringify(outputs.toJSON()).includes(NO_CHOICE);
+      [isNear, isSkipped] = [true, false];
+    } else if (NEW_TASK.test(sharedModel.source)) {
+      isAwaited &&= !NEW_SECTION.test(sharedModel.source);
+      isNear = isSkipped = false;
+    } else if (isNear && type === "code") isSkipped ||= !executionCount;
+    cell.toggleClass("course-outcome", (isAwaited || isSkipped) && type === "markdown");
   }
 }
 
