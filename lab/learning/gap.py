@@ -15,7 +15,7 @@ from IPython.core.magic import register_cell_magic
 
 from chapters.support import gaps
 from lab.errors import LabError
-from lab.learning.gap_cells import is_empty, is_python, placeholder
+from lab.learning.gap_cells import MAGIC, is_empty, is_python, placeholder
 from lab.learning.progress_file import store_entry
 from lab.running.programs import stop_programs
 from lab.running.student_nodes import stop_nodes
@@ -84,6 +84,8 @@ def write_and_check(file: str, program: str) -> None:
     """
     file = file.strip()
     gap = find_gap(file)
+    if is_python(file):
+        program = f"# {MAGIC}{file}\n{program}"  # a line of the file has the number of the cell's line
     Path(file).write_text(program, encoding="utf-8")
     if is_empty(program):
         raise GapError(

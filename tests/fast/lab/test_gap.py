@@ -59,7 +59,7 @@ def test_an_empty_gap_is_saved_and_says_where_to_write() -> None:
         lab.GapError, match=r"double\.py: nothing is written yet. Replace `raise NotImplementedError`"
     ):
         write_and_check("double.py", PROGRAM)
-    assert Path("double.py").read_text() == PROGRAM
+    assert Path("double.py").read_text() == f"# %%gap double.py\n{PROGRAM}"
     assert read_entries("gaps") == {}
 
 
@@ -87,8 +87,8 @@ def test_for_wrong_lines_the_observation_and_the_next_step_are_printed(
     assert read_entries("gaps") == {}
 
 
-def test_lines_that_are_not_python_are_quoted() -> None:
-    with pytest.raises(lab.GapError, match=r"double\.py: .*: `return \(2 x`"):
+def test_lines_that_are_not_python_are_quoted_with_the_number_of_the_cells_line() -> None:
+    with pytest.raises(lab.GapError, match=r"double\.py: .* in line 3: `return \(2 x`"):
         write_and_check("double.py", "def double(x):\n    return (2 x\n")
 
 
