@@ -175,7 +175,7 @@ def _in_words(check: LastCheck | None) -> str:
 
 def _submitted(row: ChapterProgress, exercise: Exercise) -> str:
     file = row.submitted.get(exercise.name)
-    return f"; to hand in: {file}" if file else ""
+    return f"; file in {Path(file).parent}/" if file else ""
 
 
 def _when(check: LastCheck) -> str:

@@ -201,6 +201,9 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
         new_code_cell('import lab\n\nprediction_1 = lab.predict("services", 1)\nprediction_1'),
         new_code_cell("prediction_1.reply()"),
         new_markdown_cell("There is **no response**."),
+        new_code_cell("print('experiment', 2)"),
+        new_markdown_cell("It printed more."),
+        new_markdown_cell("### Your lines"),
         new_markdown_cell("## The next part"),
     ]
     write(folder / TOP / "chapters" / "predict.ipynb", *cells)
@@ -215,6 +218,7 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
     page.keyboard.press("Shift+Enter")
     page.get_by_text("Predict first: ").wait_for()
     expect(outcome).to_be_hidden()
+    expect(notebook.get_by_role("heading", name="Your lines")).to_be_hidden()
     expect(notebook.get_by_role("heading", name="The next part")).to_be_visible()
 
     page.locator(".course-choices input").first.focus()
@@ -232,6 +236,12 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
     reply.wait_for()
     assert reply.evaluate("pre => getComputedStyle(pre).wordBreak") == "normal"
     expect(outcome).to_be_visible()
+    expect(notebook.get_by_role("heading", name="Your lines")).to_be_visible()
+    expect(notebook.get_by_text("It printed more.")).to_be_hidden()
+    notebook.get_by_text("print('experiment', 2)").click()
+    page.keyboard.press("Shift+Enter")
+    notebook.get_by_text("experiment 2").wait_for()
+    expect(notebook.get_by_text("It printed more.")).to_be_visible()
     assert notebook.locator(".jp-CodeCell .cm-lineWrapping").count() > 0
 
 

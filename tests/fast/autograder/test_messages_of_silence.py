@@ -5,12 +5,15 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from sensor_msgs.msg import BatteryState
 from std_srvs.srv import Trigger
 
 from autograder.authoring.diagnosis.readiness import require_ready
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.requirements.client_checks import require_end
-from records import PEERS, SPINNING, asked, failure_of, given_up, run_of, stack
+from autograder.engine.exercise import exercise_module
+from humanoid_interfaces.srv import GetBatteryStatus
+from records import PEERS, SPINNING, answered, asked, failure_of, given_up, run_of, stack
 
 
 @pytest.mark.parametrize(
@@ -114,3 +117,15 @@ def test_an_endpoint_that_is_missing_is_explained_by_the_nearest_one(
 ) -> None:
     absent = ev.NodeNotReady(t=5.0, missing=["get_status"], offered=offers, waited=5.0)
     assert next_step in failure_of(require_ready, run_of(PEERS, absent, ready=False)).help
+
+
+def test_a_battery_that_is_empty_is_explained_by_the_missing_subscription_or_named() -> None:
+    published = [ev.BatteryPublished(t=t, message=BatteryState(percentage=0.9)) for t in (1.5, 2.0, 2.5)]
+    request = asked("first", "get_battery_status", t=3.0, request=GetBatteryStatus.Request())
+    empty = answered("first", t=3.1, response=GetBatteryStatus.Response(available=True))
+    model = exercise_module("battery_service", "model")
+    for count, help in ((0, "Your node does not subscribe to battery_state."), (1, "battery is still empty")):
+        peers = ev.RobotPeers(t=0.9, subscribers={"/robot/battery_state": count}, publishers={})
+        seen = [peers, ev.NodeTopics(t=1.1, publishes=[], subscribes=[])]
+        call = run_of(*seen, *published, request, empty).call("first")
+        assert help in failure_of(model.repeats_the_last_message.require, call).help

@@ -12,6 +12,7 @@ from autograder.engine.starter import given_in
 from lab.client import topics
 from lab.client.exchange import no_answer, wait_until
 from lab.client.waiting import becomes_true
+from lab.errors import NotInTimeError
 from lab.running import node_diagnosis
 from lab.running.node_diagnosis import (
     how_it_ended,
@@ -216,6 +217,13 @@ def alone(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(topics, "fell_at", lambda: None)
     monkeypatch.setattr(topics, "taken_robot", str)
     monkeypatch.setattr("lab.client.exchange.started_nodes", list)
+
+
+@pytest.mark.usefixtures("alone")
+def test_a_wait_says_that_another_notebook_has_the_robot(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(topics, "taken_robot", lambda: "the robot of this notebook ended")
+    with pytest.raises(NotInTimeError, match=r"not within 0.1 s; the robot of this notebook ended"):
+        wait_until(lambda: False, 0.1, "ten steps")
 
 
 @pytest.mark.usefixtures("alone")
