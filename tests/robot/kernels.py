@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from shutil import rmtree
+from tempfile import mkdtemp
 from textwrap import dedent
 
 import psutil
-from jupyter_client.manager import KernelManager, start_new_kernel
+from jupyter_client.manager import KernelManager
 
 
 class CellError(Exception):
@@ -22,8 +24,12 @@ class Kernel:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.manager: KernelManager
-        self.manager, self.client = start_new_kernel(kernel_name="python3", cwd=str(folder))
+        # not TCP: kernels that start at the same time may choose the same free port, of which one then dies
+        self.manager = KernelManager(transport="ipc", connection_file=f"{mkdtemp()}/kernel.json")
+        self.manager.start_kernel(cwd=str(folder))
+        self.client = self.manager.client()
+        self.client.start_channels()
+        self.client.wait_for_ready(timeout=60)
         self.run("import lab")
 
     @property
@@ -49,3 +55,4 @@ class Kernel:
     def shut_down(self) -> None:
         self.client.stop_channels()
         self.manager.shutdown_kernel()
+        rmtree(Path(self.manager.connection_file).parent)
