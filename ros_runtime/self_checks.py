@@ -55,14 +55,11 @@ def store_check(exercise: str, passed: int, total: int, program: str = "", file:
     _store(file, {KIND: {exercise: check}, PROGRAMS: {program: check} if program else {}})
 
 
-def submitted_files(file: Path = FILE) -> dict[str, str]:
-    """Return for exercises the file that `course submit` wrote, if it is still so, by its path from the course."""
-    paths = [file.parent / path for path in entries_of(file, SUBMITTED)]
-    return {
-        path.stem: os.path.relpath(path, file.parent.parent)
-        for path in paths
-        if path.is_file() and was_submitted(path, file)
-    }
+def submitted_folders(file: Path = FILE) -> dict[str, str]:
+    """Return for exercises the folder, as seen from the course, whose file is as `course submit` wrote it."""
+    places = [file.parent / path for path in entries_of(file, SUBMITTED)]
+    same = [place for place in places if place.is_file() and was_submitted(place, file)]
+    return {place.stem: os.path.relpath(place.parent, file.parent.parent) for place in same}
 
 
 def was_submitted(path: Path, file: Path = FILE) -> bool:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
+from functools import partial
 from html import escape
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from lab.learning.contents import CHAPTERS, Chapter, Exercise, read_contents
 from lab.learning.gap import read_gaps
 from lab.learning.progress_file import read_entries
 from lab.learning.question import Question, read_questions
-from ros_runtime.self_checks import LastCheck, last_checks, submitted_files
+from ros_runtime.self_checks import LastCheck, last_checks, submitted_folders
 
 HEADS = ("Chapter and its exercises", "Min.", "Predictions", "Quiz", "Gaps")
 LEFT = "style='text-align: left; white-space: nowrap'"
@@ -35,15 +36,11 @@ class Part:
 
 @dataclass(frozen=True)
 class ChapterProgress:
-    """Progress in one chapter; `exercises` has None for an exercise that was never checked.
-
-    `submitted` has the file to hand in of each exercise that has one.
-    """
+    """Progress in one chapter; `exercises` has None for an exercise that was never checked."""
 
     chapter: Chapter
     parts: Mapping[str, Part]
     exercises: Sequence[tuple[Exercise, LastCheck | None]]
-    submitted: Mapping[str, str]
 
     @property
     def begun(self) -> bool:
@@ -58,8 +55,8 @@ class ChapterProgress:
 
 def read_progress() -> list[ChapterProgress]:
     """Return the progress in each chapter, as it is stored beside the chapters and the exercises."""
-    checks, submitted = last_checks(), submitted_files()
-    return [_of_chapter(chapter, checks, submitted) for chapter in read_contents()]
+    checks = last_checks()
+    return [_of_chapter(chapter, checks) for chapter in read_contents()]
 
 
 def next_step(chapters: Sequence[ChapterProgress]) -> tuple[str, Path]:
@@ -79,9 +76,7 @@ def next_step(chapters: Sequence[ChapterProgress]) -> tuple[str, Path]:
     return "All done. Have another look at", chapters[-1].chapter.notebook
 
 
-def _of_chapter(
-    chapter: Chapter, checks: Mapping[str, LastCheck], submitted: Mapping[str, str]
-) -> ChapterProgress:
+def _of_chapter(chapter: Chapter, checks: Mapping[str, LastCheck]) -> ChapterProgress:
     predictions = read_questions(chapter.name, "predictions")
     questions = read_questions(chapter.name, "questions")
     predicted = _choices(read_entries("predictions", CHAPTERS), predictions)
@@ -96,7 +91,6 @@ def _of_chapter(
             "Gaps": Part(sum(gap.file in filled for gap in gaps), len(gaps)),
         },
         exercises=[(exercise, checks.get(exercise.name)) for exercise in chapter.exercises],
-        submitted=submitted,
     )
 
 
@@ -128,8 +122,7 @@ class ProgressTable:
             parts = ", ".join(f"{name.lower()} {part}" for name, part in row.parts.items())
             lines.append(f"{row.chapter.title}: {parts}")
             lines += [
-                f"    {exercise.name}: {_in_words(check)}{_submitted(row, exercise)}"
-                for exercise, check in row.exercises
+                f"    {exercise.name}: {_in_words(exercise, check)}" for exercise, check in row.exercises
             ]
         return "\n".join(lines)
 
@@ -151,7 +144,7 @@ def _rows(row: ChapterProgress) -> Iterator[str]:
     yield f"<td {NAME}>{_link(row.chapter.notebook, row.chapter.title)}</td><td>{row.chapter.minutes}</td>{parts}"
     for exercise, check in row.exercises:
         name = f"<td {INDENTED}>{_link(exercise.notebook, exercise.name)}</td><td>{exercise.minutes}</td>"
-        done = _checked(exercise, check) + escape(_submitted(row, exercise))
+        done = _in_words(exercise, check, partial(_bar, what=exercise.name))
         yield f"{name}<td {LEFT} colspan='{len(row.parts)}'>{done}</td>"
 
 
@@ -163,19 +156,15 @@ def _bar(part: Part, what: str) -> str:
     return f"{bar} {part}"
 
 
-def _checked(exercise: Exercise, check: LastCheck | None) -> str:
-    if check is None:
-        return _in_words(check)
-    return f"{_bar(Part(check.passed, check.total), exercise.name)} checks, {_when(check)}"
-
-
-def _in_words(check: LastCheck | None) -> str:
-    return f"{check.passed}/{check.total} checks passed, {_when(check)}" if check else "not checked yet"
-
-
-def _submitted(row: ChapterProgress, exercise: Exercise) -> str:
-    file = row.submitted.get(exercise.name)
-    return f"; file in {Path(file).parent}/" if file else ""
+def _in_words(exercise: Exercise, check: LastCheck | None, show: Callable[[Part], str] = str) -> str:
+    """Return how the last self-check ended, and where the file to hand in is."""
+    checked = (
+        f"{show(Part(check.passed, check.total))} checks passed, {_when(check)}"
+        if check
+        else "not checked yet"
+    )
+    folder = submitted_folders().get(exercise.name)
+    return f"{checked}; file in {escape(folder)}/" if folder else checked
 
 
 def _when(check: LastCheck) -> str:

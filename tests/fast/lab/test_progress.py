@@ -21,7 +21,7 @@ from ros_runtime.self_checks import (
     last_checks,
     store_check,
     store_submitted,
-    submitted_files,
+    submitted_folders,
 )
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -101,7 +101,7 @@ def test_the_table_has_a_bar_for_each_part_and_links_that_lead_somewhere(
     monkeypatch.chdir(ROOT)  # the folder of start_here.ipynb
     html = lab.show_progress()._repr_html_()
     assert 'value="5" max="7" aria-label="battery_service: 5 of 7"' in html
-    assert "5/7 checks, 22 Nov 19:40" in html
+    assert "5/7 checks passed, 22 Nov 19:40" in html
     assert 'aria-label="Predictions: 1 of ' in html
     links = re.findall(r'href="([^"]+)"', html)
     assert len(links) > 12
@@ -130,11 +130,11 @@ def test_a_file_to_hand_in_is_shown_beside_its_exercise_while_it_is_as_submitted
         folder.mkdir()
     notebook.write_text("{}")
     store_submitted(notebook, file)
-    monkeypatch.setattr(progress, "submitted_files", lambda: submitted_files(file))
+    monkeypatch.setattr(progress, "submitted_folders", lambda: submitted_folders(file))
     assert "patterns: not checked yet; file in hand_in/" in repr(lab.show_progress())
     assert "not checked yet; file in hand_in/</td>" in lab.show_progress()._repr_html_()
     notebook.write_text("{ }")
-    assert submitted_files(file) == {}
+    assert submitted_folders(file) == {}
 
 
 @pytest.mark.parametrize("damaged", ["", "[]", '{"checks": 1}', '{"checks": {"battery_service": {}}}'])
