@@ -254,7 +254,9 @@ def restart_kernel(page: Page) -> None:
 def test_arrow_keys_stay_in_their_question_and_escape_leads_back_to_its_cell(
     page: Page, folder: Path, address: str
 ) -> None:
-    cells = [new_code_cell(f'import lab\n\nlab.quiz("services", {number})') for number in (1, 2)]
+    cells = [
+        new_code_cell(f'{also}lab.quiz("services", {n})') for n, also in ((1, "import lab\n\n"), (2, ""))
+    ]
     write(folder / TOP / "chapters" / "questions.ipynb", *cells)
     open_chapter(page, address, "questions")
     page.get_by_role("menuitem", name="Run", exact=True).click()
@@ -283,6 +285,13 @@ def test_arrow_keys_stay_in_their_question_and_escape_leads_back_to_its_cell(
     assert "run all cells from the first one" in advice
     icons = "parts => parts.map(part => getComputedStyle(part, '::before').display)"
     assert set(output.locator(".jupyter-widgets-disconnected").evaluate_all(icons)) == {"none"}
+
+    page.locator(".jp-CodeCell:visible").last.click()
+    page.keyboard.press("Control+Enter")
+    page.get_by_text("NameError: name 'lab' is not defined").wait_for()
+    unrun = page.locator(".course-unrun .jp-OutputArea")
+    advice = unrun.evaluate("output => getComputedStyle(output, '::after').content")
+    assert "run all cells from the first one" in advice
 
 
 def test_a_self_check_saves_the_program_that_it_checks(page: Page, folder: Path, address: str) -> None:

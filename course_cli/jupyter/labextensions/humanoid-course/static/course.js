@@ -91,6 +91,17 @@ function hideOutcomes(notebook) {
   }
 }
 
+// After a restart of the kernel a cell may lack what the cells above define (custom.css says so).
+function nameUnrunCells(notebook) {
+  let highest = 0; // execution count of the cells above; those that have not run count as run later
+  for (const cell of notebook.widgets.filter(({ model }) => model.type === "code")) {
+    const { executionCount, outputs } = cell.model;
+    const lacksName = outputs.toJSON().some(({ ename }) => ename === "NameError");
+    cell.toggleClass("course-unrun", lacksName && highest > executionCount);
+    highest = Math.max(highest, executionCount ?? Infinity);
+  }
+}
+
 // What JupyterLab copies from the kernel into a notebook is no change that its reader has to save.
 async function keepClean({ model, ready }) {
   await ready; // until then the notebook is read
@@ -146,8 +157,9 @@ const plugin = {
     docRegistry.addWidgetExtension("Notebook", {
       createNew: ({ content }, context) => {
         keepClean(context);
-        content.modelContentChanged.connect(hideOutcomes);
-        context.ready.then(() => hideOutcomes(content));
+        const update = () => [hideOutcomes, nameUnrunCells].forEach((mark) => mark(content));
+        content.modelContentChanged.connect(update);
+        context.ready.then(update);
       },
     });
     shell.layoutModified.connect(keepNewestPanel);
