@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
-from time import monotonic, sleep
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
@@ -32,7 +31,6 @@ from autograder.report.console import NOTICE, LineConsole
 from autograder.report.running import RunningLine
 from autograder.report.table import print_beginning, print_retry, print_verdict, summary
 from ros_runtime.course_error import CourseError
-from ros_runtime.notebook_domains import is_notebook_of_a_lab
 from ros_runtime.self_checks import store_check
 from ros_runtime.terminal import as_typed
 from ros_runtime.workarounds.jupyterlab_page import save_notebook
@@ -47,8 +45,6 @@ OnEvidence = Callable[[CheckVerdict, Sequence[Transcript]], None]
 EXTRA = (
     "An extra, which gives no points and changes no progress: these checks are made with the robot {robot}."
 )
-SAVE_TIMEOUT = 3.0  # s for JupyterLab to save the notebook
-SAVE_POLL = 0.1  # s
 NOTEBOOK_WIDTH = 104  # characters; fits into JupyterLab with its file browser on a screen of 1280 pixels
 
 
@@ -95,30 +91,15 @@ def self_check(exercise: str, file: str | Path | None = None, *, page: str | Pat
     console = _console()
     path = Path(file) if file else place_of_work(exercise, Path()) or Path(file_names(exercise)[0])
     with _notice_in_notebook() as notice:
-        before = _saved_at(exercise)
         if notice:
             save_notebook()
         if not file:
-            program = read_submission(path, exercise).fingerprint
-            deadline = monotonic() + (SAVE_TIMEOUT if notice else 0.0)
-            # the page of JupyterLab saves the notebook meanwhile
-            while monotonic() < deadline and (
-                saved_work_warning(exercise, program)
-                or (is_notebook_of_a_lab() and _saved_at(exercise) == before)
-            ):
-                sleep(SAVE_POLL)
-            warning = saved_work_warning(exercise, program)
+            warning = saved_work_warning(exercise, read_submission(path, exercise).fingerprint)
             if warning:
                 console.print(warning, style=WARNING, markup=False)  # before the verdicts, which may be long
         result = check_and_keep(console, path, exercise, page=Path(page) if page else None, notice=notice)
     print_next_step(console, result, path, "" if file else saved_work_warning(exercise, result.program))
     return SelfCheck(result)
-
-
-def _saved_at(exercise: str) -> float | None:
-    """Return when the exercise's notebook in this folder was saved, in s since the epoch; None if there is none."""
-    notebook = Path(f"{exercise}.ipynb")
-    return notebook.stat().st_mtime if notebook.exists() else None
 
 
 def print_next_step(console: Console, grade: Grade, path: Path, warning: str = "") -> None:

@@ -10,13 +10,18 @@ from typing import Any
 from IPython.core.getipython import get_ipython
 
 from ros_runtime.cell_notice import notice
+from ros_runtime.workarounds.jupyterlab_page import save_notebook
 
 _ROS2 = re.compile(r"(?:^|[\s;&|])(ros2 \w+(?: \w+)?)")
 _COURSE = re.compile(r"(?:^|[\s;&|/])(course \w+)")
+_OF_THE_NOTEBOOK = ("course check", "course submit")  # they read what is saved
 
 
 def announce_commands(shell: Any) -> None:
-    """Show a notice while a cell runs a `ros2` or `course` command, which takes seconds before it prints."""
+    """Show a notice while a cell runs a `ros2` or `course` command, which takes seconds before it prints.
+
+    A command that reads the notebook has it saved first.
+    """
     run: Callable[[str], None] = shell.system
     expand: Callable[..., str] = shell.var_expand
     further_frames = 2  # run_with_notice and expand_for_caller
@@ -34,6 +39,8 @@ def announce_commands(shell: Any) -> None:
             elif found := _COURSE.search(command):
                 words = f"{found[1]} runs. It first loads the course, which takes some seconds."
             with notice(words) if words else nullcontext():
+                if found and found[1] in _OF_THE_NOTEBOOK:
+                    save_notebook()
                 run(command)
         finally:
             shell.var_expand = expand

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from autograder.authoring.checks import Check, Scenario
-from autograder.authoring.diagnosis.exit_diagnosis import SANDBOX_FOLDER
+from autograder.authoring.diagnosis.exit_diagnosis import SANDBOX_FOLDER, is_not_python
 from autograder.authoring.diagnosis.readiness import require_ready, require_started
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
@@ -38,11 +38,12 @@ def judge(
         _require_evidence(check, transcripts)
         check.run(transcripts)
     except Failure as failure:
-        see = failure.see or check.see
+        is_readable = not any(map(is_not_python, transcripts))
+        see = (failure.see or check.see) * is_readable
         return verdict_on(
             check,
             "failed",
-            expected=failure.expected,
+            expected=failure.expected if is_readable else "a program that Python can read",
             observed=_with_steps(failure),
             help=f"{failure.help} Read {in_words(see)}." if see else failure.help,
             lesson=see,

@@ -126,7 +126,7 @@ class _LeftToDo:
         """Return what to do next."""
         if self.unfinished or self.unsaved:
             again = as_typed(" ".join(["submit", *self.unfinished, *self.unsaved]))
-            complete = "complete the program, " if self.unfinished else ""
+            complete = "write or mend the program, " if self.unfinished else ""
             return f"Next: {complete}save it (Ctrl+S), and type again: {again}"
         if self.worse:
             files = " and ".join(map(str, self.worse))
@@ -137,7 +137,7 @@ class _LeftToDo:
             )
         first = [f"{as_typed(f'check {exercise}')}; " for exercise in self.unchecked]
         first += [f"remove {path} unless it is what you mean to hand in; " for path in self.foreign]
-        place = f"{out}/, the folder beside exercises/" if ".." in out.parts else f"{out}/"
+        place = f"the folder {out.name} beside exercises" if ".." in out.parts else f"{out}/"
         return f"Next: {'then '.join([*first, ''])}hand in what is in {place}, unchanged."
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from lab.client.connection import connection
 from lab.client.exchange import give_up, require_server
+from lab.client.topics import taken_robot
 from lab.errors import LabError
 from ros_runtime.cell_notice import notice
 
@@ -34,6 +35,8 @@ def call(service: str, service_type: Any, request: Any = None, *, timeout: float
     with notice(f"This waits up to {timeout:g} s for the response of {service}."):
         if not sent.wait(max(0.0, deadline - time.monotonic())):
             raise give_up(sent, timeout, service, f"no answer from {service} within {timeout:g} s.")
+    if taken := taken_robot():
+        print(f"But {taken}.")
     return sent.response
 
 

@@ -148,6 +148,7 @@ class _LiveView:
                 topics.latest("odom", MESSAGE_TIMEOUT)
                 set_current_posture(body)
                 text = topics.whereabouts()  # of the same moment as the picture
+                text += ". lab.restart_robot() sets it up again." * text.startswith("FALLEN")
                 moved = bool(abs(body.data.qpos - drawn).max() > SEEN_MOTION)
             except NoRobotError:  # the robot may be started again
                 has_robot = False

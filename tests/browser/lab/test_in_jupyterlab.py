@@ -202,7 +202,7 @@ def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, addr
         new_code_cell("prediction_1.reply()"),
         new_markdown_cell("There is **no response**."),
         new_code_cell("print('experiment', 2)"),
-        new_markdown_cell("It printed more."),
+        new_markdown_cell("It printed **more**."),
         new_markdown_cell("### Your lines"),
         new_markdown_cell("## The next part"),
     ]
@@ -282,7 +282,7 @@ def test_arrow_keys_stay_in_their_question_and_escape_leads_back_to_its_cell(
     output = page.locator(".jp-OutputArea-output:has(> .jupyter-widgets-disconnected)").last
     output.wait_for()
     advice = output.evaluate("output => getComputedStyle(output, '::after').content")
-    assert "run all cells from the first one" in advice
+    assert "run the first code cell" in advice
     icons = "parts => parts.map(part => getComputedStyle(part, '::before').display)"
     assert set(output.locator(".jupyter-widgets-disconnected").evaluate_all(icons)) == {"none"}
 
@@ -291,13 +291,16 @@ def test_arrow_keys_stay_in_their_question_and_escape_leads_back_to_its_cell(
     page.get_by_text("NameError: name 'lab' is not defined").wait_for()
     unrun = page.locator(".course-unrun .jp-OutputArea")
     advice = unrun.evaluate("output => getComputedStyle(output, '::after').content")
-    assert "run all cells from the first one" in advice
+    assert "run that cell first" in advice
 
 
-def test_a_self_check_saves_the_program_that_it_checks(page: Page, folder: Path, address: str) -> None:
+def test_a_self_check_and_submit_save_the_notebook_that_they_read(
+    page: Page, folder: Path, address: str
+) -> None:
     notebook = folder / TOP / "exercises/patterns/patterns.ipynb"
     content = nbformat.read(notebook, as_version=4)
     cells = [cell for cell in content.cells if cell.id in ("solution", "self-check")]
+    cells.append(new_code_cell("import lab\n\n!course submit patterns"))
     nbformat.write(new_notebook(cells=cells, metadata=content.metadata), notebook)
     page.goto(address.replace("start_here.ipynb", "exercises/patterns/patterns.ipynb") + "&reset")
     page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
@@ -312,6 +315,14 @@ def test_a_self_check_saves_the_program_that_it_checks(page: Page, folder: Path,
     assert "not saved yet" in notebook.read_text()
     require_saved(page)
     assert "Next: mend what the first failed check names" in notebook.read_text()
+
+    shown.get_by_text("if __name__").click()
+    page.keyboard.press("End")
+    page.keyboard.type(", nor is this")
+    shown.get_by_text("!course submit patterns").click()
+    page.keyboard.press("Control+Enter")
+    page.get_by_text("it replaces another program").wait_for()
+    assert "nor is this" in (folder / TOP / "hand_in/patterns.ipynb").read_text()
     failed = page.locator(".course-verdicts details[open]").first
     assert "failed: Each of the twelve situations" in failed.inner_text()
     in_both_themes(page)
@@ -331,9 +342,7 @@ def test_questions_plots_and_drawings_suit_both_themes(page: Page, folder: Path,
     page.get_by_text("GapError: merged.py").first.wait_for()
     in_both_themes(page, left_out=UNNAMED_SLIDER)
     ended = page.get_by_text("model not found")
-    assert "Run all cells from the first one." in ended.evaluate(
-        "ended => getComputedStyle(ended, '::after').content"
-    )
+    assert "Run the first code cell" in ended.evaluate("ended => getComputedStyle(ended, '::after').content")
     assert page.locator(".jp-OutputArea-child:visible", has=page.locator("pre:empty")).count() == 0
     for drawing in page.locator(".course-drawing, .jp-RenderedMarkdown img").all():
         assert "invert" in drawing.evaluate("drawing => getComputedStyle(drawing).filter")

@@ -97,7 +97,7 @@ function nameUnrunCells(notebook) {
   for (const cell of notebook.widgets.filter(({ model }) => model.type === "code")) {
     const { executionCount, outputs } = cell.model;
     const lacksName = outputs.toJSON().some(({ ename }) => ename === "NameError");
-    cell.toggleClass("course-unrun", lacksName && highest > executionCount);
+    cell.toggleClass("course-unrun", lacksName && highest >= executionCount);
     highest = Math.max(highest, executionCount ?? Infinity);
   }
 }
