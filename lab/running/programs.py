@@ -105,8 +105,8 @@ class Program:
         lines = (self.stdout + self.stderr).replace(f"{self.file.resolve().parent}/", "").splitlines()
         remedy = remedy_for_a_traceback(self.stderr) if self.exit_status else None
         help = f"\n{remedy.help}" if remedy else ""
-        if not lines and not self._process.is_running:
-            help = f"\nIt printed nothing.{what_is_missing([self.file])}"
+        if not lines and (missing := what_is_missing([self.file])):
+            help = f"\nIt printed nothing.{missing}"
         return "\n    ".join([repr(self), *lines]) + help
 
     def _state(self) -> str:
