@@ -36,7 +36,7 @@ def call(service: str, service_type: Any, request: Any = None, *, timeout: float
         if not sent.wait(max(0.0, deadline - time.monotonic())):
             raise give_up(sent, timeout, service, f"no answer from {service} within {timeout:g} s.")
     if taken := taken_robot():
-        print(f"But {taken}.")
+        print(f"Note: {taken}.")
     return sent.response
 
 

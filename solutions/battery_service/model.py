@@ -106,7 +106,7 @@ def _advice(call: Call, last: Any, differing: list[str]) -> str:
         return "BatteryState.percentage is from 0 to 1, not from 0 to 100: copy it unchanged."
     if any(not differing_fields(battery, message) for message in earlier):
         return "This is an older message: in the callback of battery_state, replace the stored message every time."
-    if not set(MAIN_FIELDS) & set(differing):
+    if "percentage" not in differing:
         return f"Other fields differ from the message ({', '.join(differing[:4])}): {COPY_ALL}"
     if math.isclose(battery.percentage, last.percentage, abs_tol=0.01):
         return f"The percentage was rounded, or the stored message was changed after it had come: {COPY_ALL}"

@@ -70,7 +70,7 @@ def shown(value: Any) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if _is_number(value):
-        return "NaN" if math.isnan(value) else f"{value:g}"
+        return "NaN" if math.isnan(value) else str(value) if isinstance(value, int) else f"{value:g}"
     if is_message(value):
         return f"{{{shown_fields(value, *value.get_fields_and_field_types())}}}"
     return repr(value[:MAX_CHARACTERS] if isinstance(value, str) else value)

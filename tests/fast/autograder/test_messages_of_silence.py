@@ -129,3 +129,17 @@ def test_a_battery_that_is_empty_is_explained_by_the_missing_subscription_or_nam
         seen = [peers, ev.NodeTopics(t=1.1, publishes=[], subscribes=[])]
         call = run_of(*seen, *published, request, empty).call("first")
         assert help in failure_of(model.repeats_the_last_message.require, call).help
+
+
+def test_a_field_that_was_changed_is_named_and_not_one_that_equals() -> None:
+    published = [
+        ev.BatteryPublished(t=t, message=BatteryState(percentage=0.9, voltage=33.5)) for t in (1.5, 2.0, 2.5)
+    ]
+    request = asked("first", "get_battery_status", t=3.0, request=GetBatteryStatus.Request())
+    battery = BatteryState(percentage=0.9, voltage=48.0)
+    wrong = answered("first", t=3.1, response=GetBatteryStatus.Response(available=True, battery=battery))
+    model = exercise_module("battery_service", "model")
+    failure = failure_of(
+        model.repeats_the_last_message.require, run_of(*published, request, wrong).call("first")
+    )
+    assert failure.help.startswith("Other fields differ from the message (voltage): ")
