@@ -46,9 +46,9 @@ def saved_work_warning(exercise: str, program: str, folder: Path = Path()) -> st
     )
 
 
-def next_step(grade: Grade, may_be_submitted: bool = True) -> str:
-    """Return what to do after a self-check that was graded; a starter is not to be submitted yet."""
-    submit = as_typed(f"submit {grade.exercise}")
+def next_step(grade: Grade, may_be_submitted: bool = True, file: Path | None = None) -> str:
+    """Return what to do after a self-check that was graded, of the file that was named; a starter is not submitted."""
+    submit = as_typed(f"submit {grade.exercise}" + (f" --file {file}" if file else ""))
     if grade.all_passed:
         return f"Next: hand it in: {submit}"
     if not may_be_submitted or not any(verdict.status == "passed" for verdict in grade.checks):

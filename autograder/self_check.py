@@ -98,19 +98,25 @@ def self_check(exercise: str, file: str | Path | None = None, *, page: str | Pat
             if warning:
                 console.print(warning, style=WARNING, markup=False)  # before the verdicts, which may be long
         result = check_and_keep(console, path, exercise, page=Path(page) if page else None, notice=notice)
-    print_next_step(console, result, path, "" if file else saved_work_warning(exercise, result.program))
+    warning = "" if file else saved_work_warning(exercise, result.program)
+    print_next_step(console, result, path, warning, file=path if file else None)
     return SelfCheck(result)
 
 
-def print_next_step(console: Console, grade: Grade, path: Path, warning: str = "") -> None:
-    """Print which checks come later, and what to do next with the work at `path`; a warning replaces the next step."""
+def print_next_step(
+    console: Console, grade: Grade, path: Path, warning: str = "", file: Path | None = None
+) -> None:
+    """Print which checks come later, and what to do next with the work at `path`; a warning replaces the next step.
+
+    `file` is that path if it was named, so that it is submitted and no other.
+    """
     if later := hidden_checks_notice(grade.exercise):
         console.print(later, markup=False)
     if warning:
         console.print(warning, style=WARNING, markup=False)
     elif grade.status == "graded":
         may_be_submitted = not is_starter(*_with_notebook(path, grade.exercise))
-        console.print(next_step(grade, may_be_submitted), markup=False)
+        console.print(next_step(grade, may_be_submitted, file), markup=False)
 
 
 def check_and_keep(console: Console, path: Path, exercise: str, **options: Any) -> Grade:

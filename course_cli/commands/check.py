@@ -83,7 +83,7 @@ def check(
             console, path, exercise, jobs=jobs, arenas=arenas, recordings=folder, page=page, robot=robot
         )
     if not robot:
-        print_next_step(console, result, path)
+        print_next_step(console, result, path, file=file)
     if json_file:
         json_file.write_text(json.dumps(result.to_json(), indent=2) + "\n")
     if result.status == "not graded":

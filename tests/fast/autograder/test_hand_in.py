@@ -16,6 +16,7 @@ from autograder.engine.hand_in import Names
 from autograder.engine.starter import is_starter, what_is_to_be_written
 from autograder.engine.submission import Submission, UnusableSubmission, read_submission
 from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.hand_in_notice import next_step
 from course_cli import own_work as own_work_module
 from course_cli import reasons_not_to_submit
 from course_cli.commands import submit as command
@@ -483,6 +484,13 @@ def test_submit_says_that_unsaved_edits_are_missing(
     said = printed_by(capsys)
     assert f"Not handed in: {FIRST}, the program of the cell that you ran last" in said
     assert said.endswith(f"save it (Ctrl+S), and type again: !course submit {NAME}")
+
+
+def test_after_a_check_of_a_named_file_the_next_step_submits_that_file() -> None:
+    passed = Grade(NAME, "me", "none", [CheckVerdict("check", "Title", "passed", 1, 1)])
+    assert next_step(passed, file=Path("mine/a.py")) == (
+        f"Next: hand it in: ./course submit {NAME} --file mine/a.py"
+    )
 
 
 @pytest.mark.parametrize(("is_saved", "warns"), [(True, False), (False, True)])
