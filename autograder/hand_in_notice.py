@@ -47,7 +47,7 @@ def saved_work_warning(exercise: str, program: str, folder: Path = Path()) -> st
 
 
 def next_step(grade: Grade, may_be_submitted: bool = True, file: Path | None = None) -> str:
-    """Return what to do after a self-check that was graded, of the file that was named; a starter is not submitted."""
+    """Return what to do after a graded self-check of `file` (None: the default one); a starter is not submitted."""
     submit = as_typed(f"submit {grade.exercise}" + (f" --file {file}" if file else ""))
     if grade.all_passed:
         return f"Next: hand it in: {submit}"

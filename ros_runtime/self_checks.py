@@ -56,9 +56,9 @@ def store_check(exercise: str, passed: int, total: int, program: str = "", file:
 
 
 def submitted_folders(file: Path = FILE) -> dict[str, str]:
-    """Return for exercises the folder, as seen from the course, whose file is as `course submit` wrote it."""
-    places = [file.parent / path for path in entries_of(file, SUBMITTED)]
-    same = [place for place in places if place.is_file() and was_submitted(place, file)]
+    """Return for each exercise with an unchanged submitted file the file's folder, relative to the course."""
+    written = [(file.parent / path, digest) for path, digest in entries_of(file, SUBMITTED).items()]
+    same = [place for place, digest in written if place.is_file() and _digest(place) == digest]
     return {place.stem: os.path.relpath(place.parent, file.parent.parent) for place in same}
 
 

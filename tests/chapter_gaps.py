@@ -1,4 +1,4 @@
-"""The gaps of a chapter, for the tests of their form and of the lines that students write."""
+"""Finds the gaps in a chapter, for the tests of their form and those that fill them."""
 
 from __future__ import annotations
 

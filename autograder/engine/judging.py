@@ -38,12 +38,13 @@ def judge(
         _require_evidence(check, transcripts)
         check.run(transcripts)
     except Failure as failure:
-        is_readable = not any(map(is_not_python, transcripts))
-        see = (failure.see or check.see) * is_readable
+        expected, see = failure.expected, failure.see or check.see
+        if any(map(is_not_python, transcripts)):
+            expected, see = "a program that Python can read", ""
         return verdict_on(
             check,
             "failed",
-            expected=failure.expected if is_readable else "a program that Python can read",
+            expected=expected,
             observed=_with_steps(failure),
             help=f"{failure.help} Read {in_words(see)}." if see else failure.help,
             lesson=see,

@@ -15,7 +15,7 @@ from rich.text import Text
 from ros_runtime.terminal import is_terminal
 
 FILE_WIDTH = 200  # characters, of tables that go to a file or a pipe; it breaks no path
-# To be read on white and on black; each colour repeats what a word or a mark says.
+# Legible on a white and on a black background; each style repeats what a word or a mark says.
 GOOD, BAD, NOTICE, OTHER = "green", "bold red", "bold", "bold blue"
 
 

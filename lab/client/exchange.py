@@ -46,15 +46,16 @@ def wait_until(
     """
     began = time.monotonic()
     taken = topics.taken_robot()
-    remark = LIES if topics.fell_at() else f"But {taken}." * bool(taken)
-    with notice(f"This waits up to {timeout:g} s for: {what}. {remark}".rstrip()):
+    remark = f" {LIES}" if topics.fell_at() else f" But {taken}." if taken else ""
+    with notice(f"This waits up to {timeout:g} s for: {what}.{remark}"):
         if becomes_true(condition, timeout):
             return
     message = f"{what}: not within {timeout:g} s" + (f", but {seen() or 'an empty text'!r}" if seen else "")
     if fell := topics.fell_at():
         when = f"{abs(fell - began):.1f} s {'after' if fell > began else 'before'} this wait began"
         message += f". The robot lies: it fell {when}. lab.restart_robot() sets it up again."
-    message += f"; {taken}" * bool(taken)
+    if taken:
+        message += f"; {taken}"
     nodes = started_nodes()
     running = [node.file for node in nodes if node.is_running]
     raise NotInTimeError(

@@ -95,7 +95,7 @@ def fell_at() -> float | None:
 
 
 def taken_robot() -> str:
-    """Return that another notebook's robot has replaced the one of this notebook, and what to do; "" if not."""
+    """Return a sentence if another notebook's robot has replaced that of this notebook, and what to do; else ""."""
     if (other := robot_of_another_notebook()) and _last_messages().age("robot_state") > MAX_AGE:
         return (
             f"the robot of this notebook ended when {other.notebook} started one: you have one robot at a time. "

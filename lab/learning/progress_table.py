@@ -118,11 +118,13 @@ class ProgressTable:
     def __repr__(self) -> str:
         sentence, notebook = next_step(self.chapters)
         lines = [f"{sentence} {_relative(notebook)}"]
+        folders = submitted_folders()
         for row in self.chapters:
             parts = ", ".join(f"{name.lower()} {part}" for name, part in row.parts.items())
             lines.append(f"{row.chapter.title}: {parts}")
             lines += [
-                f"    {exercise.name}: {_in_words(exercise, check)}" for exercise, check in row.exercises
+                f"    {exercise.name}: {_in_words(check, folders.get(exercise.name))}"
+                for exercise, check in row.exercises
             ]
         return "\n".join(lines)
 
@@ -130,7 +132,8 @@ class ProgressTable:
         sentence, notebook = next_step(self.chapters)
         titles = {row.chapter.notebook: row.chapter.title for row in self.chapters}
         heads = "".join(f"<th {LEFT}>{head}</th>" for head in HEADS)
-        rows = "".join(f"<tr>{cells}</tr>" for row in self.chapters for cells in _rows(row))
+        folders = submitted_folders()
+        rows = "".join(f"<tr>{cells}</tr>" for row in self.chapters for cells in _rows(row, folders))
         return (
             f"<p><b>{sentence} {_link(notebook, titles.get(notebook, notebook.stem))}.</b></p>"
             "<div style='overflow-x: auto' tabindex='0' role='group' aria-label='progress'>"
@@ -138,13 +141,13 @@ class ProgressTable:
         )
 
 
-def _rows(row: ChapterProgress) -> Iterator[str]:
+def _rows(row: ChapterProgress, folders: Mapping[str, str]) -> Iterator[str]:
     """Return the cells of a chapter, then those of each of its exercises: all fit beside the robot's panel."""
     parts = "".join(f"<td {LEFT}>{_bar(part, name)}</td>" for name, part in row.parts.items())
     yield f"<td {NAME}>{_link(row.chapter.notebook, row.chapter.title)}</td><td>{row.chapter.minutes}</td>{parts}"
     for exercise, check in row.exercises:
         name = f"<td {INDENTED}>{_link(exercise.notebook, exercise.name)}</td><td>{exercise.minutes}</td>"
-        done = _in_words(exercise, check, partial(_bar, what=exercise.name))
+        done = _in_words(check, folders.get(exercise.name), partial(_bar, what=exercise.name))
         yield f"{name}<td {LEFT} colspan='{len(row.parts)}'>{done}</td>"
 
 
@@ -156,14 +159,13 @@ def _bar(part: Part, what: str) -> str:
     return f"{bar} {part}"
 
 
-def _in_words(exercise: Exercise, check: LastCheck | None, show: Callable[[Part], str] = str) -> str:
+def _in_words(check: LastCheck | None, folder: str | None, show: Callable[[Part], str] = str) -> str:
     """Return how the last self-check ended, and where the file to hand in is."""
     checked = (
         f"{show(Part(check.passed, check.total))} checks passed, {_when(check)}"
         if check
         else "not checked yet"
     )
-    folder = submitted_folders().get(exercise.name)
     return f"{checked}; file in {escape(folder)}/" if folder else checked
 
 

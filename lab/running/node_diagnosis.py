@@ -52,7 +52,7 @@ def why_they_ended(nodes: Iterable[StudentNode]) -> str:
 
 
 def what_is_missing(programs: Iterable[Path]) -> str:
-    """Return where nothing is written yet below `# YOUR CODE HERE` in programs, each in a line; "" if nowhere."""
+    """Return which `# YOUR CODE HERE` in programs have no code below them yet, a line for each program; "" if none."""
     found = [what_is_to_be_written(*_program(file)) for file in programs]
     return "".join(f"\n{sentence}" for sentence in found if sentence)
 
