@@ -46,12 +46,15 @@ def saved_work_warning(exercise: str, program: str, folder: Path = Path()) -> st
     )
 
 
-def next_step(grade: Grade, may_be_submitted: bool = True, file: Path | None = None) -> str:
-    """Return what to do after a graded self-check of `file` (None: the default one); a starter is not submitted."""
+def next_step(grade: Grade, offers_it: bool = True, file: Path | None = None) -> str:
+    """Return what to do after a graded self-check of `file` (None: the default one).
+
+    With `offers_it` that includes to hand in a program that does not pass every check.
+    """
     submit = as_typed(f"submit {grade.exercise}" + (f" --file {file}" if file else ""))
     if grade.all_passed:
         return f"Next: hand it in: {submit}"
-    if not may_be_submitted or not any(verdict.status == "passed" for verdict in grade.checks):
+    if not offers_it or not any(verdict.status == "passed" for verdict in grade.checks):
         return "Next: mend what the first failed check names, and check again."
     return (
         f"Next: mend what the first failed check names, and check again; or hand in what you have: {submit}"

@@ -31,7 +31,7 @@ from autograder.report.console import NOTICE, LineConsole
 from autograder.report.running import RunningLine
 from autograder.report.table import print_beginning, print_retry, print_verdict, summary
 from ros_runtime.course_error import CourseError
-from ros_runtime.self_checks import store_check
+from ros_runtime.self_checks import store_check, submitted_folders
 from ros_runtime.terminal import as_typed
 from ros_runtime.workarounds.jupyterlab_page import save_notebook
 
@@ -115,16 +115,21 @@ def print_next_step(
     if warning:
         console.print(warning, style=WARNING, markup=False)
     elif grade.status == "graded":
-        may_be_submitted = not is_starter(*_with_notebook(path, grade.exercise))
-        console.print(next_step(grade, may_be_submitted, file), markup=False)
+        is_submitted = grade.exercise in submitted_folders()
+        offers_it = not is_submitted and not is_starter(*_with_notebook(path, grade.exercise))
+        console.print(next_step(grade, offers_it, file), markup=False)
 
 
 def check_and_keep(console: Console, path: Path, exercise: str, **options: Any) -> Grade:
-    """Like `check_with_progress`, with its options; also store the number of passed checks for the progress page."""
+    """Like `check_with_progress`, with its options; also store the number of passed checks.
+
+    The progress page shows them, unless the file has a name of its own, such as that of an experiment.
+    """
     result = check_with_progress(console, path, exercise, **options)
     if result.status == "graded" and not options.get("robot"):
         passed = sum(check.status == "passed" for check in result.checks)
-        store_check(exercise, passed, len(result.checks), result.program)
+        is_own = path.is_dir() or path.name in (f"{exercise}.ipynb", *file_names(exercise))
+        store_check(exercise, passed, len(result.checks), result.program, for_its_row=is_own)
     return result
 
 

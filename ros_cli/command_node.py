@@ -109,6 +109,10 @@ class CommandNode:
             time.sleep(QUERY_PERIOD)
         return True
 
+    def is_beside_others(self) -> bool:
+        """Whether the graph has another node than this one."""
+        return len(self.node_names(hidden=True)) > 1
+
     def node_names(self, *, hidden: bool = False) -> list[str]:
         """Return the full names of the nodes in the graph, sorted; a name occurs once for each node that has it."""
         return sorted(

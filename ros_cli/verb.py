@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
 from ros_cli.command_node import SPIN_TIME, CommandNode
+from ros_cli.errors import print_message
+from ros_runtime import notebook_domains
 
 Verbs = Any  # what ArgumentParser.add_subparsers() returns; argparse keeps its class private
 Run = Callable[[Namespace], "int | None"]
@@ -43,7 +46,9 @@ def add_list_verb(
 
     def print_list(options: Namespace) -> None:
         with CommandNode(options.spin_time) as command:
-            command.discover()
+            command.discover(command.is_beside_others, "other nodes")
+            if not command.is_beside_others():
+                print_message(_no_node())
             found = names(command, options)
         if options.count:
             print(len(found))
@@ -56,6 +61,14 @@ def add_list_verb(
     words = f"Only display the number of {kind}s discovered"
     listing.add_argument("-c", f"--count-{kind}s", dest="count", action="store_true", help=words)
     return listing
+
+
+def _no_node() -> str:
+    """Return that the domain has no other node, and where the lab's nodes are."""
+    seen = f"No node was found in ROS domain {os.environ.get('ROS_DOMAIN_ID') or 0}."
+    if notebook_domains.is_in_a_lab():
+        return f"{seen} Next: start the robot or a node in a notebook."
+    return f"{seen} Nodes of a notebook are in its own domain. Next: type this in a terminal of JupyterLab."
 
 
 def add_flag(parser: ArgumentParser, *names: str, help: str) -> None:

@@ -1,8 +1,8 @@
-"""The ROS domains of the lab's notebooks, which the terminals beside them join, and the robots in them.
+"""The ROS domains of the lab's notebooks, which the terminals beside them join, and the robots and nodes in them.
 
 Each notebook has a domain of its own. `course lab` creates a file and passes its path to all kernels and terminals in
-an environment variable. A notebook appends its domain to the file when it joins the domain, and its robot when it has
-started one. The file is in memory and disappears when the lab's process ends.
+an environment variable. A notebook appends a line to the file when it joins its domain, starts a robot, or starts or
+stops a node. The file is in memory and disappears when the lab's process ends.
 """
 
 from __future__ import annotations
@@ -41,18 +41,22 @@ def lab_variables() -> dict[str, str]:
 
 def announce(domain_id: int) -> None:
     """Add this notebook's domain to the lab's file, if it runs in a lab."""
-    _append(f"{domain_id}")
+    _append(domain_id, "joined")
 
 
 def announce_robot(domain_id: int, pid: int) -> None:
     """Add the robot that this notebook has started to the lab's file, if it runs in a lab."""
     if is_notebook_of_a_lab():
-        _append(f"{domain_id} {pid} {Path(os.environ[NOTEBOOK]).name}")
+        _append(domain_id, f"robot {pid} {Path(os.environ[NOTEBOOK]).name}")
 
 
 def robot_of_another_notebook() -> LabRobot | None:
     """Return the lab's last robot, if another notebook than this one has started it; it may have ended since."""
-    robots = [LabRobot(int(line[0]), int(line[1]), line[2]) for line in _lines() if len(line) == 3]
+    robots = [
+        LabRobot(domain, int(pid), notebook)
+        for domain, line in _lines("robot")
+        for pid, notebook in [line.split(maxsplit=1)]
+    ]
     if (
         not robots
         or not is_notebook_of_a_lab()
@@ -64,25 +68,31 @@ def robot_of_another_notebook() -> LabRobot | None:
 
 def is_notebook_of_a_lab() -> bool:
     """Whether this process is the kernel of a notebook that `course lab` serves, so JupyterLab shows it."""
-    return NOTEBOOK in os.environ and _file_of_the_lab() is not None
+    return NOTEBOOK in os.environ and is_in_a_lab()
 
 
 def latest() -> int | None:
-    """Return the domain that was joined last by a notebook that still runs; None if there is none."""
-    return next((int(line[0]) for line in reversed(_lines()) if is_reserved(int(line[0]))), None)
+    """Return the domain of the notebook that wrote the last line and still runs; None if there is none."""
+    return next((domain for domain, _ in reversed(_lines("")) if is_reserved(domain)), None)
 
 
-def _append(line: str) -> None:
+def is_in_a_lab() -> bool:
+    """Whether this process is a kernel or a terminal of `course lab`, or was started by one."""
+    return _file_of_the_lab() is not None
+
+
+def _append(domain_id: int | str, line: str) -> None:
     if file := _file_of_the_lab():
         with file.open("a", encoding="utf-8") as announced:
-            announced.write(f"{line}\n")
+            announced.write(f"{domain_id} {line}\n")
 
 
-def _lines() -> list[list[str]]:
-    """Return the lines of the lab's file: a domain, or a domain, a process id and a notebook."""
+def _lines(kind: str) -> list[tuple[int, str]]:
+    """Return the domain and the rest of each line of a kind in the lab's file: joined, robot, nodes, or "" for all."""
     file = _file_of_the_lab()
     announced = file.read_text(encoding="utf-8").splitlines() if file else []
-    return [line.split(maxsplit=2) for line in announced]
+    lines = [line.partition(" ") for line in announced]
+    return [(int(domain), line.removeprefix(kind)) for domain, _, line in lines if line.startswith(kind)]
 
 
 def _file_of_the_lab() -> Path | None:
@@ -95,11 +105,11 @@ def _file_of_the_lab() -> Path | None:
 
 
 def expect_node(name: str) -> None:
-    """Register a running node, so that ros2 commands in this notebook's cells wait until they discover it.
+    """Register a running node, so that ros2 commands in this notebook's domain wait until they discover it.
 
     A name that is registered twice stands for two nodes.
     """
-    os.environ[EXPECTED] = " ".join(sorted([*expected_nodes(), name]))
+    _expect(sorted([*expected_nodes(), name]))
 
 
 def forget_node(name: str) -> None:
@@ -107,9 +117,17 @@ def forget_node(name: str) -> None:
     nodes = expected_nodes()
     if name in nodes:
         nodes.remove(name)
-    os.environ[EXPECTED] = " ".join(nodes)
+        _expect(nodes)
 
 
 def expected_nodes() -> list[str]:
-    """Return the full names of the registered nodes of this notebook, one entry per node."""
-    return os.environ.get(EXPECTED, "").split()
+    """Return the full names of the registered nodes in this process's domain, one entry per node."""
+    domain_id = os.environ.get("ROS_DOMAIN_ID")
+    announced = [line for domain, line in _lines("nodes") if str(domain) == domain_id]
+    return os.environ.get(EXPECTED, announced[-1] if announced else "").split()
+
+
+def _expect(nodes: list[str]) -> None:
+    os.environ[EXPECTED] = " ".join(nodes)
+    if domain_id := os.environ.get("ROS_DOMAIN_ID"):
+        _append(domain_id, f"nodes {os.environ[EXPECTED]}")

@@ -47,12 +47,20 @@ def _stored(file: Path, kind: str) -> dict[str, LastCheck]:
     return checks
 
 
-def store_check(exercise: str, passed: int, total: int, program: str = "", file: Path = FILE) -> None:
-    """Store a self-check of one of the course's exercises; does nothing if the file cannot be written."""
+def store_check(
+    exercise: str, passed: int, total: int, program: str = "", file: Path = FILE, *, for_its_row: bool = True
+) -> None:
+    """Store a self-check of one of the course's exercises; does nothing if the file cannot be written.
+
+    Unless `for_its_row`, it is stored for the program alone, and not as the last check of the exercise.
+    """
     if not (file.parent / exercise).is_dir():  # an exercise of another course
         return
     check = asdict(LastCheck(passed, total, datetime.now().isoformat(timespec="seconds"), program))
-    _store(file, {KIND: {exercise: check}, PROGRAMS: {program: check} if program else {}})
+    _store(
+        file,
+        {KIND: {exercise: check} if for_its_row else {}, PROGRAMS: {program: check} if program else {}},
+    )
 
 
 def submitted_folders(file: Path = FILE) -> dict[str, str]:

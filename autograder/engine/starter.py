@@ -29,6 +29,8 @@ def what_is_to_be_written(submission: Submission, *notebooks: Path) -> str:
 
     In the starter these are all lines `# YOUR CODE HERE`, else those below which the student wrote nothing.
     """
+    if not any(map(_PLACES.search, submission.sources.values())):
+        return ""
     pattern = _PLACES if is_starter(submission, *notebooks) else _EMPTY_PLACES
     return "\n".join(
         f"{name} is as the starter leaves it below `# YOUR CODE HERE` in {_in_words(lines)}: write your code there."

@@ -108,13 +108,14 @@ def forget_messages() -> None:
     """Drop the messages of a robot that was stopped."""
     stored = _last_messages()
     stored.messages.clear()
-    stored.reset_at = -math.inf
+    stored.reset_at, stored.was_stopped = -math.inf, True
 
 
 def latest(topic: str, timeout: float = 5.0) -> Any:
     """Return the last message on one of the robot's topics; if it is older than a second, wait for a new one.
 
-    Raises NoRobotError when no message arrives within `timeout` s; at once if another notebook has taken the robot.
+    Raises NoRobotError when no message arrives within `timeout` s; at once if this notebook has stopped the robot, or
+    another one has taken it.
     """
     stored = _last_messages()
 
@@ -125,6 +126,8 @@ def latest(topic: str, timeout: float = 5.0) -> Any:
         return stored.messages[topic][0]
     if taken := taken_robot():
         raise NoRobotError(taken)
+    if stored.was_stopped:
+        raise NoRobotError("the robot was stopped: lab.start_robot() starts one")
     waits = f"No message arrives on {NAMESPACE}/{topic}: this waits up to {timeout:g} s for a robot that publishes it."
     with notice(waits):
         arrives = becomes_true(is_current, timeout)
@@ -149,7 +152,7 @@ def reset_for_scene(scene: str, robot: str = "humanoid") -> None:
     """Drop the messages of an earlier robot, and subscribe to the objects of this scene and to the right gripper."""
     stored = _last_messages()
     stored.messages.clear()
-    stored.reset_at = time.monotonic()
+    stored.reset_at, stored.was_stopped = time.monotonic(), False
     stored.scene, stored.robot = scene, robot
     if OBJECTS[scene]:
         stored.subscribe(GRIPPER_TOPIC, WrenchStamped, QUEUE_DEPTH)
@@ -200,8 +203,8 @@ def _last_messages() -> _LastMessages:
 class _LastMessages:
     """Subscribes to topics and keeps each topic's last message with its time of arrival.
 
-    `scene` is the name of the scene in which the robot was started, `robot` the robot's name; `mode_changed_at` and
-    `reset_at`, just before the robot was started, are in s of `time.monotonic()`.
+    `scene` is the name of the scene in which the robot was started, `robot` the robot's name, `was_stopped` whether
+    `stop_robot()` ended it; `mode_changed_at` and `reset_at`, just before the start, are in s of `time.monotonic()`.
     """
 
     def __init__(self, node: Node) -> None:
@@ -210,6 +213,7 @@ class _LastMessages:
         self.scene, self.robot = "flat", "humanoid"
         self.mode_changed_at = time.monotonic()
         self.reset_at = -math.inf
+        self.was_stopped = False
         self._node = node
         self._topics: set[str] = set()
         for topic, (message_type, qos) in TOPICS.items():

@@ -36,23 +36,28 @@ def test_it_is_kept_when_every_check_was_judged(
     (tmp_path / "battery_service.py").write_text("print()")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(module, "check_with_progress", lambda *arguments, **options: grade)
-    monkeypatch.setattr(module, "store_check", lambda *entry: kept.append(entry))
+    monkeypatch.setattr(module, "store_check", lambda *entry, **options: kept.append(entry))
     assert module.self_check("battery_service").grade is grade
     assert kept == expected
 
 
 def test_the_command_keeps_it_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     kept: list[tuple] = []
-    program = tmp_path / "battery_service.py"
-    program.write_text("print()")
+    rows: list[bool] = []
     monkeypatch.setattr(
         module, "check_with_progress", lambda *arguments, **options: graded("passed", "failed")
     )
-    monkeypatch.setattr(module, "store_check", lambda *entry: kept.append(entry))
-    with pytest.raises(typer.Exit) as ended:
-        check("battery_service", program, json_file=None, jobs=1, course=None)
-    assert ended.value.exit_code == 1
-    assert kept == KEPT
+    monkeypatch.setattr(
+        module, "store_check", lambda *entry, for_its_row: kept.append(entry) or rows.append(for_its_row)
+    )
+    for name in ("battery_service.py", "experiment.py"):
+        program = tmp_path / name
+        program.write_text("print()")
+        with pytest.raises(typer.Exit) as ended:
+            check("battery_service", program, json_file=None, jobs=1, course=None)
+        assert ended.value.exit_code == 1
+    assert kept == KEPT * 2
+    assert rows == [True, False]
 
 
 def test_a_notebooks_self_check_draws_what_failed_and_writes_the_page(
@@ -76,7 +81,7 @@ def test_a_notebooks_self_check_draws_what_failed_and_writes_the_page(
     monkeypatch.setattr(module, "save_notebook", lambda: None)
     monkeypatch.setattr(module, "_notebook_table", lambda exercise: table)
     monkeypatch.setattr(module, "grade", grade)
-    monkeypatch.setattr(module, "store_check", lambda *entry: None)
+    monkeypatch.setattr(module, "store_check", lambda *entry, **options: None)
     monkeypatch.chdir(tmp_path)
     module.self_check("battery_service", page="shown.html")
     assert drawn == ["check_0"]

@@ -18,6 +18,7 @@ from lab.learning.question import read_questions
 from ros_runtime.self_checks import (
     FILE,
     LastCheck,
+    last_check_of,
     last_checks,
     store_check,
     store_submitted,
@@ -113,10 +114,13 @@ def test_the_last_self_check_is_kept_above_the_exercises(tmp_path: Path) -> None
     (tmp_path / "battery_service").mkdir()
     store_check("battery_service", 3, 7, file=file)
     store_check("battery_service", 7, 7, file=file)
+    store_check("battery_service", 5, 7, "of an experiment", file=file, for_its_row=False)
     store_check("of_another_course", 1, 1, file=file)
     assert {name: (kept.passed, kept.total) for name, kept in last_checks(file).items()} == {
         "battery_service": (7, 7)
     }
+    assert (kept := last_check_of("of an experiment", file))
+    assert kept.passed == 5
     assert list((tmp_path / "battery_service").iterdir()) == []
     assert FILE.parent == ROOT / "exercises"
 

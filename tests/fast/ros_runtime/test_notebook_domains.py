@@ -133,6 +133,23 @@ def test_a_notebook_registers_the_nodes_that_its_commands_must_discover(
     assert notebook_domains.expected_nodes() == ["/robot/notebook"]
 
 
+def test_a_terminal_expects_the_nodes_of_the_notebook_that_it_joins(
+    notebooks: list[ReservedDomain], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for domain, node in zip(notebooks, ("/robot/of_the_first", "/robot/of_the_second"), strict=True):
+        monkeypatch.setenv(notebook_domains.EXPECTED, "")
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(domain.domain_id))
+        notebook_domains.expect_node("/robot/notebook")
+        notebook_domains.expect_node(node)
+    for name in (notebook_domains.EXPECTED, "ROS_DOMAIN_ID"):
+        monkeypatch.delenv(name)
+    join_domain()
+    assert notebook_domains.expected_nodes() == ["/robot/notebook", "/robot/of_the_second"]
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(notebooks[0].domain_id))
+    assert notebook_domains.expected_nodes() == ["/robot/notebook", "/robot/of_the_first"]
+    notebooks[1].release()
+
+
 def test_two_nodes_of_one_name_are_both_expected(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(notebook_domains.EXPECTED, "")
     notebook_domains.expect_node("/robot/where_am_i")

@@ -292,3 +292,16 @@ def test_a_failed_command_is_reported_with_exit_status_1(ros2: Ros2, words: str,
     finished = ros2(*words.split())
     assert finished.returncode == 1
     assert expected in finished.stderr
+
+
+def test_a_list_in_an_empty_domain_says_where_the_nodes_of_a_notebook_are(
+    environment: dict[str, str],
+) -> None:
+    with ReservedDomain() as domain_id:
+        empty = environment | {"ROS_DOMAIN_ID": str(domain_id)}
+        run = subprocess.run(
+            [OURS / "ros2", "node", "list"], env=empty, capture_output=True, text=True, timeout=TIMEOUT
+        )
+    assert run.stdout == ""
+    assert run.stderr.startswith(f"looking for other nodes …\nNo node was found in ROS domain {domain_id}.")
+    assert "type this in a terminal of JupyterLab" in run.stderr

@@ -21,6 +21,7 @@ const NEW_TASK = /^(#+ |%%)/; // a heading, or a program to write
 
 let groups = 0; // of radio buttons, so far
 let hasPanel = false;
+let isFolded = false; // the file browser, for the panel
 
 const pause = () => new Promise((resolve) => setTimeout(resolve, PERIOD));
 
@@ -28,8 +29,19 @@ const pause = () => new Promise((resolve) => setTimeout(resolve, PERIOD));
 function keepNewestPanel(shell) {
   const panels = [...shell.widgets("right")].filter((widget) => widget.title.label === PANEL);
   panels.slice(0, -1).forEach((panel) => panel.dispose());
-  if (panels.length && !hasPanel && window.innerWidth < NARROW) shell.collapseLeft();
+  if (panels.length && !hasPanel && window.innerWidth < NARROW && !shell.leftCollapsed) {
+    shell.collapseLeft();
+    isFolded = true;
+  } else if (!panels.length && isFolded) {
+    shell.expandLeft();
+    isFolded = false;
+  }
   hasPanel = panels.length > 0;
+}
+
+// What unfolds below the edge of the page, such as a film of a failed check, comes into view.
+function showUnfolded({ target }) {
+  if (target.open && target.closest(".jp-OutputArea-output")) target.scrollIntoView({ block: "nearest" });
 }
 
 // ipywidgets gives radio buttons no name, and the browser takes all buttons without a name for one group: an arrow key
@@ -149,6 +161,7 @@ const plugin = {
   activate: ({ commands, docRegistry, shell }) => {
     const early = { capture: true }; // before JupyterLab, which listens at the document
     window.addEventListener("keydown", (event) => keepKeys(event, shell), early);
+    document.addEventListener("toggle", showUnfolded, early); // a toggle does not bubble
     const added = new MutationObserver(() => {
       nameGroups();
       letDrawingsScroll();
