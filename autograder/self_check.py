@@ -234,7 +234,7 @@ def _notice_in_notebook() -> AbstractContextManager[CellNotice | None]:
     # imported only if needed, because it loads IPython
     from ros_runtime.cell_notice import CellNotice
 
-    return CellNotice("The check begins: the notebook is saved, and your program is started.")
+    return CellNotice("The check begins: the notebook is saved, and your program is started.", delay=0.0)
 
 
 def _notebook_table(exercise: Exercise) -> NotebookTable:

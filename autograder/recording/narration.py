@@ -69,7 +69,7 @@ def _of_the_program(event: Any) -> tuple[int, str] | None:
         case ev.NodeStarted():
             return INFO, "the program starts"
         case ev.NodeReady(waited=waited):
-            return INFO, f"the program's services and actions are available after {waited:.1f} s"
+            return INFO, f"its services and actions are available after {waited:.1f} s"
         case ev.NodeNotReady(missing=missing, offered=offered):
             return WARN, f"missing: {', '.join(missing)}; available: {', '.join(offered) or 'nothing'}"
         case ev.NodeTyped(line=line):

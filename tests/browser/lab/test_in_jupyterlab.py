@@ -196,6 +196,20 @@ def test_the_first_page_shows_what_is_done_and_a_first_step(page: Page) -> None:
     page.get_by_role("heading", name="Battery service").wait_for()
 
 
+def test_what_unfolds_comes_into_view(page: Page, folder: Path, address: str) -> None:
+    film = (
+        "<p style='height: 450px'></p><details><summary>Film</summary><p style='height: 400px'></p></details>"
+    )
+    cell = new_code_cell(f'from IPython.display import HTML\n\nHTML("{film}")')
+    write(folder / f"{TOP}/chapters/film.ipynb", cell)
+    page.set_viewport_size({"width": 1280, "height": 720})
+    open_chapter(page, address, "film")
+    page.get_by_text("from IPython.display").click()
+    page.keyboard.press("Shift+Enter")
+    page.locator("summary", has_text="Film").click()
+    expect(page.locator("details > p")).to_be_in_viewport(ratio=1)
+
+
 def test_a_prediction_is_made_by_key_and_by_click(page: Page, folder: Path, address: str) -> None:
     cells = [
         new_code_cell('import lab\n\nprediction_1 = lab.predict("services", 1)\nprediction_1'),
