@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.text import Text
 
 from autograder.authoring.checks import Check
+from autograder.authoring.diagnosis.missing_comma import with_comma
 from autograder.authoring.diagnosis.service_callback import with_callback
 from autograder.authoring.diagnosis.stack_location import with_code
 from autograder.authoring.evidence.transcript import Transcript
@@ -178,7 +179,8 @@ def check_with_progress(
 
         def report(verdict: CheckVerdict) -> None:
             sources = submission.sources
-            verdict = replace(verdict, help=with_code(with_callback(verdict.help, sources), sources))
+            help = with_code(with_comma(with_callback(verdict.help, sources), sources), sources)
+            verdict = _in_words_of(path, loaded, replace(verdict, help=help))
             line.note(verdict)
             if table:
                 table.add(verdict)
@@ -218,6 +220,15 @@ def _with_notebook(path: Path, exercise: str) -> tuple[Submission, Path]:
     """Return the work at a path, and the place of the notebook that may have written it."""
     folder = path if path.is_dir() else path.parent
     return read_submission(path, exercise), folder / f"{exercise}.ipynb"
+
+
+def _in_words_of(path: Path, exercise: Exercise, verdict: CheckVerdict) -> CheckVerdict:
+    """Return a verdict with the name of the checked program, if it is another than that under which it runs."""
+    if path.suffix != ".py" or path.name in exercise.file_names:
+        return verdict
+    name = exercise.file_names[0]
+    texts = {field: getattr(verdict, field).replace(name, path.name) for field in ("observed", "help", "log")}
+    return replace(verdict, **texts)
 
 
 def _both(first: OnEvidence, second: OnEvidence) -> OnEvidence:

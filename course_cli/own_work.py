@@ -40,7 +40,7 @@ def own_work(exercise: str, file: Path | None, naming: str = "check {} FILE") ->
     for folder, depth in places:
         if folder.is_dir() and (found := work_in(folder, exercise, depth=depth)):
             path, left_aside = found
-            advice = "; the notebook's %%writefile cell writes that file anew"
+            advice = ": its %%writefile cell was changed and not run since. Run it, and check"
             advice *= path.suffix == ".ipynb"
             return path, [line + advice * line.endswith(PROGRAMS_DIFFER) for line in left_aside]
     names = ", ".join([f"{exercise}.ipynb", *file_names(exercise)])

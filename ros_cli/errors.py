@@ -5,7 +5,8 @@ from __future__ import annotations
 import shutil
 import sys
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 from ros_runtime.suggestion import suggestion
 from ros_runtime.terminal import is_terminal
@@ -22,6 +23,19 @@ def print_message(message: object) -> None:
         width = shutil.get_terminal_size().columns
         lines = [textwrap.fill(line, width, break_long_words=False, break_on_hyphens=False) for line in lines]
     print("\n".join(lines), file=sys.stderr, flush=True)
+
+
+@contextmanager
+def passing_message(text: str) -> Iterator[None]:
+    """In a terminal, show a text on stderr while the `with` block runs."""
+    if not is_terminal(sys.stderr):
+        yield
+        return
+    print(text, end="", file=sys.stderr, flush=True)
+    try:
+        yield
+    finally:
+        print("\r\033[K", end="", file=sys.stderr, flush=True)
 
 
 def unknown(kind: str, name: str, known: Iterable[str]) -> CommandError:

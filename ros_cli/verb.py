@@ -9,7 +9,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
 from ros_cli.command_node import SPIN_TIME, CommandNode
-from ros_cli.errors import print_message
+from ros_cli.errors import passing_message, print_message
 from ros_runtime import notebook_domains
 
 Verbs = Any  # what ArgumentParser.add_subparsers() returns; argparse keeps its class private
@@ -45,11 +45,11 @@ def add_list_verb(
     """
 
     def print_list(options: Namespace) -> None:
-        with CommandNode(options.spin_time) as command:
-            command.discover(command.is_beside_others, "other nodes")
-            if not command.is_beside_others():
-                print_message(_no_node())
-            found = names(command, options)
+        with passing_message("discovering nodes …"), CommandNode(options.spin_time) as command:
+            command.discover(command.is_beside_others)
+            found, is_alone = names(command, options), not command.is_beside_others()
+        if is_alone:
+            print_message(_no_node())
         if options.count:
             print(len(found))
             return

@@ -22,13 +22,13 @@ _only_one = threading.Lock()  # of a step and its parts, the step says what goes
 class CellNotice:
     """A text below the running cell and how long it has been shown, in s; the end of the `with` block removes it.
 
-    It appears if the block takes longer than `delay` s. It is not printed: nothing that reads the cell's output receives
-    it. Outside a notebook, and in threads that the cell has started, nothing is shown.
+    It appears if the block takes longer than `delay` s, else DELAY. It is not printed, so nothing that reads the cell's
+    output receives it. Outside a notebook, and in threads that the cell has started, nothing is shown.
     """
 
-    def __init__(self, text: str = "", delay: float = DELAY) -> None:
+    def __init__(self, text: str = "", delay: float | None = None) -> None:
         self._text, self._since = text, time.monotonic()
-        self._delay = delay
+        self._delay = DELAY if delay is None else delay
         self._shown: Any = None  # IPython's handle of the display, once there is one
         self._drawing = threading.Lock()
         self._ended = threading.Event()

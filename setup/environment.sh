@@ -129,17 +129,23 @@ install_with_pip() {
     logged "${pip[@]}" "${isolation[@]}" --editable "$root[$1]"
 }
 
-# Run a command with its output in the log, and say every 20 s which step goes on.
+# Run a command with its output in the log, and show which step goes on: in a terminal a clock, elsewhere a line every 10 s.
 logged() {
-    local ticker status=0
+    local ticker status=0 beats=0 terminal=
+    [ -t 2 ] && terminal=yes
     echo "+ $*" >>"$log"
-    while sleep 20 >/dev/null 2>&1 && kill -0 $$ 2>/dev/null; do
-        say "still $step ($((SECONDS - started)) s since the beginning)"
+    while sleep 1 >/dev/null 2>&1 && kill -0 $$ 2>/dev/null; do
+        if [ -n "$terminal" ]; then
+            printf '\r%d s ' $((SECONDS - started)) >&2
+        elif [ $((++beats % 10)) = 0 ]; then
+            say "still $step ($((SECONDS - started)) s since the beginning)"
+        fi
     done 9>&- &
     ticker=$!
     "$@" >>"$log" 2>&1 </dev/null 9>&- || status=$?
     kill "$ticker" 2>/dev/null
     wait "$ticker" 2>/dev/null
+    [ -n "$terminal" ] && printf '\r\033[K' >&2
     return $status
 }
 

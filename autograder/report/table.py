@@ -35,12 +35,7 @@ _LINE_TIME = re.compile(r" *(\d+\.\d\d) s  ")
 def print_beginning(console: Console, path: Path, exercise: Exercise) -> None:
     """Print what is checked and how long it takes, before the first verdict."""
     count = len(exercise.checks)
-    has_another_name = path.suffix == ".py" and path.name not in exercise.file_names
-    runs_as = f" It runs as {exercise.file_names[0]}." if has_another_name else ""
-    console.print(
-        f"{path}: {count} checks, each shown as soon as its verdict is known.{runs_as}",
-        markup=False,
-    )
+    console.print(f"{path}: {count} checks, each shown as soon as its verdict is known.", markup=False)
 
 
 def print_verdict(console: Console, verdict: CheckVerdict) -> None:

@@ -23,11 +23,10 @@ from lab.running.node_diagnosis import (
     why_they_ended,
 )
 from lab.running.student_nodes import StudentNode, started_nodes
-from ros_runtime.cell_notice import CellNotice, notice
+from ros_runtime.cell_notice import notice
 from ros_runtime.recorded_client.goal import Cancel, Goal
 from ros_runtime.recorded_client.service_client import Call
 
-SHORT_WAIT = 1.0  # s; after it, programs are searched for what is still to be written
 TIME_TO_END = 1.0  # s; long enough for a node to end after an exception
 LIES = "The robot lies on the floor. lab.restart_robot() sets it up, if this waits for a robot that stands."
 MATCHING_TIME = 0.1  # s until the server has discovered the client, too; otherwise its answer could be lost
@@ -41,21 +40,15 @@ def wait_until(
 ) -> None:
     """Block until `condition()` is true; `what` names the condition in the error, which shows `seen()` instead.
 
-    A notice says what is awaited, and whether the robot lies, or is gone, at the beginning, and what is still to be
-    written in a node that runs. Raises NotInTimeError after `timeout` s; its message says the same, and why nodes have
-    ended, or receive no messages.
+    A notice says what is awaited, and whether the robot lies, or is gone, at the beginning. Raises NotInTimeError after
+    `timeout` s; it also says if the robot lies, or is gone, why nodes have ended, what is still to be written in one
+    that runs, and why it receives no messages.
     """
     began = time.monotonic()
     taken = topics.taken_robot()
     remark = f" {LIES}" if topics.fell_at() else f" But {taken}." if taken else ""
-    text = f"This waits up to {timeout:g} s for: {what}.{remark}"
-    with CellNotice(text) as shown:
-        if becomes_true(condition, min(timeout, SHORT_WAIT)):
-            return
-        nodes = started_nodes()
-        if missing := what_is_missing(node.file for node in nodes if node.is_running):
-            shown.show(text + missing)
-        if becomes_true(condition, began + timeout - time.monotonic()):
+    with notice(f"This waits up to {timeout:g} s for: {what}.{remark}"):
+        if becomes_true(condition, timeout):
             return
     message = f"{what}: not within {timeout:g} s" + (f", but {seen() or 'an empty text'!r}" if seen else "")
     if fell := topics.fell_at():
@@ -63,7 +56,11 @@ def wait_until(
         message += f". The robot lies: it fell {when}. lab.restart_robot() sets it up again."
     if taken:
         message += f"; {taken}"
-    raise NotInTimeError(message + (why_they_ended(nodes) or missing or why_not_connected(nodes)))
+    nodes = started_nodes()
+    running = [node.file for node in nodes if node.is_running]
+    raise NotInTimeError(
+        message + (why_they_ended(nodes) or what_is_missing(running) or why_not_connected(nodes))
+    )
 
 
 def require_server(is_ready: Callable[[], bool], name: str, interface: Any, timeout: float) -> None:

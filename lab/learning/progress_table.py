@@ -114,10 +114,11 @@ class ProgressTable:
 
     def __init__(self, chapters: Sequence[ChapterProgress]) -> None:
         self.chapters = chapters
+        self._as_of = f"This is how far you were on {datetime.now():%Y-%m-%d at %H:%M}."
 
     def __repr__(self) -> str:
         sentence, notebook = next_step(self.chapters)
-        lines = [f"{sentence} {_relative(notebook)}"]
+        lines = [f"{sentence} {_relative(notebook)}", self._as_of]
         folders = submitted_folders()
         for row in self.chapters:
             parts = ", ".join(f"{name.lower()} {part}" for name, part in row.parts.items())
@@ -135,7 +136,7 @@ class ProgressTable:
         folders = submitted_folders()
         rows = "".join(f"<tr>{cells}</tr>" for row in self.chapters for cells in _rows(row, folders))
         return (
-            f"<p><b>{sentence} {_link(notebook, titles.get(notebook, notebook.stem))}.</b></p>"
+            f"<p><b>{sentence} {_link(notebook, titles.get(notebook, notebook.stem))}.</b> {self._as_of}</p>"
             "<div style='overflow-x: auto' tabindex='0' role='group' aria-label='progress'>"
             f"<table><thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table></div>"
         )

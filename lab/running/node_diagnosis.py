@@ -17,6 +17,7 @@ from autograder.authoring.diagnosis.exit_diagnosis import (
     remedy_for_the_end,
 )
 from autograder.authoring.diagnosis.goal_diagnosis import why_no_result, why_rclpy_aborted
+from autograder.authoring.diagnosis.missing_comma import with_comma
 from autograder.authoring.diagnosis.readiness import require_ready
 from autograder.authoring.diagnosis.service_callback import syntax_tree, with_callback
 from autograder.authoring.diagnosis.stack_location import where_it_waited, with_code
@@ -89,7 +90,7 @@ def how_it_ended(node: StudentNode) -> str:
     help = remedy_for_the_end(run, ev.NodeExited(returncode=node.exit_status or 0)).help
     help = with_callback(help, {node.file.name: _text(node.file)})
     words = run.last_words.rstrip(".?")
-    return f"with exit status {node.exit_status}: {words}. {_with_code(help, node)}"
+    return f"with exit status {node.exit_status}: {words}. {with_code_of(node.file, help)}"
 
 
 def own_output(node: StudentNode) -> str:
@@ -105,7 +106,7 @@ def why_not_offered(node: StudentNode, name: str, *, is_action: bool) -> str:
     try:
         require_ready(_record(node, ev.NodeNotReady(missing=missing, offered=offered, waited=0.0)))
     except Failure as failure:
-        return f"\n{node.file.name}: {failure.observed}. {_with_code(failure.help, node)}"
+        return f"\n{node.file.name}: {failure.observed}. {with_code_of(node.file, failure.help)}"
     return ""
 
 
@@ -123,13 +124,17 @@ def why_silent(server: StudentNode) -> str:
 def why_unfinished(server: StudentNode, goal: str) -> str:
     """Return why a goal that a running server has accepted has no result yet; "" if it is not in the log any more."""
     sent = log.first(ev.GoalSent, goal=goal)
-    return _with_code(why_no_result(_record(server, _stack(server)).goal(goal))[1], server) if sent else ""
+    return (
+        with_code_of(server.file, why_no_result(_record(server, _stack(server)).goal(goal))[1])
+        if sent
+        else ""
+    )
 
 
 def why_aborted(nodes: Iterable[StudentNode], action: str, goal: str) -> str:
     """Return why rclpy aborted a goal by itself; "" if it did not, or if that is not known."""
     server = server_of(nodes, action) if log.first(ev.GoalSent, goal=goal) else None
-    return _with_code(why_rclpy_aborted(_record(server).goal(goal)) or "", server) if server else ""
+    return with_code_of(server.file, why_rclpy_aborted(_record(server).goal(goal)) or "") if server else ""
 
 
 def server_of(nodes: Iterable[StudentNode], name: str) -> StudentNode | None:
@@ -266,7 +271,7 @@ def _why_no_answer(run: Transcript, node: StudentNode) -> str:
         around = [each.lineno for each in loops if each.lineno < place.line <= (each.end_lineno or 0)]
         if around:
             help = help.replace(str(place), f"{place}, in the loop of line {max(around)} of {place.file}")
-    return _with_code(help, node)
+    return with_code_of(node.file, help)
 
 
 def _text(file: Path) -> str:
@@ -274,6 +279,7 @@ def _text(file: Path) -> str:
     return file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
 
 
-def _with_code(advice: str, node: StudentNode) -> str:
+def with_code_of(file: Path, advice: str) -> str:
     """Return advice that quotes the line that it names of the student's file, or of one beside it."""
-    return with_code(advice, {file.name: _text(file) for file in node.file.parent.glob("*.py")})
+    advice = with_comma(advice, {file.name: _text(file)})
+    return with_code(advice, {each.name: _text(each) for each in file.parent.glob("*.py")})

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from autograder.authoring.diagnosis.exit_diagnosis import remedy_for_a_traceback
 from lab.client.connection import connection
-from lab.running.node_diagnosis import what_is_missing
+from lab.running.node_diagnosis import what_is_missing, with_code_of
 from lab.running.processes import Process, ProcessHistory
 from lab.running.student_nodes import existing_file, in_namespace
 
@@ -104,7 +104,7 @@ class Program:
     def __str__(self) -> str:
         lines = (self.stdout + self.stderr).replace(f"{self.file.resolve().parent}/", "").splitlines()
         remedy = remedy_for_a_traceback(self.stderr) if self.exit_status else None
-        help = f"\n{remedy.help}" if remedy else ""
+        help = f"\n{with_code_of(self.file, remedy.help)}" if remedy else ""
         if not lines and (missing := what_is_missing([self.file])):
             help = f"\nIt printed nothing.{missing}"
         return "\n    ".join([repr(self), *lines]) + help

@@ -107,12 +107,19 @@ def robot_process() -> Process:
 
 def restart_robot(scene: str = "flat", *, robot: str = "humanoid") -> None:
     """Stop the robot and start a new one, which stands at the origin with a full battery."""
-    stop_robot()
+    end_robot()
     start_robot(scene, robot=robot)
 
 
 def stop_robot() -> None:
     """Stop the robot's process."""
+    if robot_is_running():
+        print("The robot has stopped.")
+    end_robot()
+
+
+def end_robot() -> None:
+    """Stop the robot's process, without a word."""
     global _robot
     forget_node(ROBOT_NODE)
     if _robot is not None:

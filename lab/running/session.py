@@ -8,7 +8,7 @@ from lab.client.connection import disconnect
 from lab.client.interaction_log import log
 from lab.pictures.live_view import stop_watching
 from lab.running.programs import stop_programs
-from lab.running.robot import robot_is_running, stop_robot
+from lab.running.robot import end_robot, robot_is_running
 from lab.running.student_nodes import stop_nodes
 
 
@@ -25,6 +25,6 @@ def _stop_everything() -> None:
     stop_watching()
     stop_programs()
     stop_nodes()
-    stop_robot()
+    end_robot()
     disconnect()
     log.clear()

@@ -10,7 +10,7 @@ from lab.client.connection import NAMESPACE, connection
 from lab.client.interaction_log import log
 from lab.client.waiting import becomes_true
 from lab.errors import LabError, NodeEndedError
-from lab.running.node_diagnosis import how_it_ended, own_output
+from lab.running.node_diagnosis import how_it_ended, own_output, what_is_missing
 from lab.running.processes import Process, ProcessHistory
 from ros_runtime.cell_notice import notice
 from ros_runtime.notebook_domains import expect_node, forget_node
@@ -25,7 +25,7 @@ def run_node(file: str | Path, *arguments: str) -> StudentNode:
     """Start a Python file as a process in namespace /robot and wait until its node can be reached.
 
     If a node that was started earlier from the same file still runs, it is stopped first, so that no old server
-    responds. `arguments` are passed to the program.
+    responds. `arguments` are passed to the program. What is still to be written in it is printed.
 
     Raises:
         LabError: there is no such file.
@@ -47,6 +47,8 @@ def run_node(file: str | Path, *arguments: str) -> StudentNode:
     with notice(
         f"{path.name} is starting. Its node can be reached in a few seconds, on a busy machine in up to 20 s."
     ):
+        if missing := what_is_missing([path]):
+            print(missing.strip())
         if becomes_true(has_appeared, START_TIMEOUT):
             deadline = time.monotonic() + START_TIMEOUT
             for name in appeared.values():

@@ -13,7 +13,7 @@ from lab.client.commands import publish
 from lab.client.waiting import becomes_true
 from lab.learning.gap import Gap, expect
 from lab.learning.gap_check_helpers import call_student_service, read_program, run_student_code
-from lab.running.robot import start_robot, stop_robot
+from lab.running.robot import end_robot, start_robot
 from lab.running.student_nodes import StudentNode, run_node
 
 ROBOT_STATE_TIMEOUT = 5.0  # s, on a busy machine
@@ -48,7 +48,7 @@ DECISIONS = (  # available, percentage, the right decision, the advice after a w
 
 def answers_without_odom() -> str:
     """Call where_am_i while no robot publishes odom."""
-    stop_robot()
+    end_robot()
     server = run_node("where_am_i_fixed.py")
     hints = {
         "'NoneType' object": "return response inside the `if`: without a return the callback goes on and reads odom"
@@ -71,7 +71,7 @@ def answers_without_odom() -> str:
 
 def refuses_an_impossible_start() -> str:
     """Request a start and a stop without a robot, with one that stands, and with one whose motors are off."""
-    stop_robot()
+    end_robot()
     server = run_node("march.py")
     try:
         unknown = _refused_start(
@@ -104,7 +104,7 @@ def refuses_an_impossible_start() -> str:
         )
         _require_stop(server, "while the motors are off")
     finally:
-        stop_robot()
+        end_robot()
     return f"it refused a start with {unknown!r} and with {off!r}, and never a stop"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -86,3 +87,29 @@ def test_a_notebooks_self_check_draws_what_failed_and_writes_the_page(
     module.self_check("battery_service", page="shown.html")
     assert drawn == ["check_0"]
     assert "<h3>battery_service.py</h3>" in Path("shown.html").read_text()
+
+
+def test_a_program_of_another_name_is_called_by_its_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "mine.py").write_text("import rclpy\nraise ValueError('no')\n")
+    failed = replace(
+        graded("failed").checks[0],
+        observed="the program ended with status 1: ValueError: no",
+        help="It was raised in line 2 of battery_service.py.",
+        log='  File "battery_service.py", line 2, in <module>',
+    )
+
+    def grade(
+        submission: Submission, exercise: Exercise, options: object, watcher: Watcher, **_: object
+    ) -> Grade:
+        watcher.on_verdict(failed)
+        return graded("failed")
+
+    monkeypatch.setattr(module, "grade", grade)
+    monkeypatch.setattr(module, "store_check", lambda *entry, **options: None)
+    module.self_check("battery_service", tmp_path / "mine.py")
+    printed = capsys.readouterr().out
+    assert "line 2 of mine.py (`raise ValueError('no')`)" in printed
+    assert 'File "mine.py", line 2' in printed
+    assert "battery_service.py" not in printed

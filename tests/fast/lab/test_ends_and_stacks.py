@@ -94,10 +94,11 @@ def test_an_exception_is_named_with_the_students_line_and_without_those_of_libra
 
 def test_a_program_that_has_failed_shows_what_the_self_check_says(tmp_path: Path) -> None:
     file = tmp_path / "patterns.py"
-    file.write_text("for pattern, reason in ['abc']:\n    pass\n", encoding="utf-8")
+    file.write_text("pairs = [('a' 'bc')]\nfor pattern, reason in pairs:\n    pass\n", encoding="utf-8")
     program = Program(file, Process([str(file)], own_stderr=True)).wait(10.0)
     assert "ValueError: too many values to unpack" in str(program)
-    assert "Look for a missing comma" in str(program).splitlines()[-1]
+    last = str(program).splitlines()[-1]
+    assert "Look for a missing comma in line 1 of patterns.py (`pairs = [('a' 'bc')]`): " in last
 
 
 ENDS_SOON = """

@@ -265,9 +265,9 @@ def test_an_archive_holds_what_the_environment_is_made_from(tmp_path: Path, part
 def test_a_long_step_of_the_set_up_is_named_again(clone: Path) -> None:
     program = """
         started=$SECONDS
-        sleep() { command sleep 0.2; }
+        sleep() { command sleep 0.02; }
         begin "building humanoid_interfaces (about a minute)"
-        logged bash -c "sleep 0.7"
+        logged bash -c "sleep 1"
     """
     (clone / "build").mkdir()
     ran = subprocess.run(

@@ -303,5 +303,5 @@ def test_a_list_in_an_empty_domain_says_where_the_nodes_of_a_notebook_are(
             [OURS / "ros2", "node", "list"], env=empty, capture_output=True, text=True, timeout=TIMEOUT
         )
     assert run.stdout == ""
-    assert run.stderr.startswith(f"looking for other nodes …\nNo node was found in ROS domain {domain_id}.")
+    assert run.stderr.startswith(f"No node was found in ROS domain {domain_id}.")
     assert "type this in a terminal of JupyterLab" in run.stderr

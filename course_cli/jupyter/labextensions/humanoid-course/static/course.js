@@ -16,6 +16,7 @@ const NAMELESS = ".widget-radio-box input[type=radio]:not([name])";
 const OUTPUT = ".jp-OutputArea-output:not([tabindex])";
 const WIDE = `:is(${OUTPUT}, ${OUTPUT} > details) > svg.course-drawing`;
 const REPLY = /^prediction_\d+\.reply\(\)/m; // the cell after an experiment
+const NO_MAGIC = /^UsageError: Cell magic `%%gap` not found/;
 const NEW_SECTION = /^## /;
 const NEW_TASK = /^(#+ |%%)/; // a heading, or a program to write
 
@@ -108,7 +109,7 @@ function nameUnrunCells(notebook) {
   let highest = 0; // execution count of the cells above; those that have not run count as run later
   for (const cell of notebook.widgets.filter(({ model }) => model.type === "code")) {
     const { executionCount, outputs } = cell.model;
-    const lacksName = outputs.toJSON().some(({ ename }) => ename === "NameError");
+    const lacksName = outputs.toJSON().some(({ ename, text }) => ename === "NameError" || NO_MAGIC.test(text));
     cell.toggleClass("course-unrun", lacksName && highest >= executionCount);
     highest = Math.max(highest, executionCount ?? Infinity);
   }
