@@ -271,7 +271,7 @@ def test_arrow_keys_stay_in_their_question_and_escape_leads_back_to_its_cell(
     cells = [
         new_code_cell(f'{also}lab.quiz("services", {n})') for n, also in ((1, "import lab\n\n"), (2, ""))
     ]
-    write(folder / TOP / "chapters" / "questions.ipynb", *cells)
+    write(folder / TOP / "chapters" / "questions.ipynb", new_code_cell("1"), *cells)
     open_chapter(page, address, "questions")
     page.get_by_role("menuitem", name="Run", exact=True).click()
     page.get_by_text("Run All Cells", exact=True).click()
@@ -304,8 +304,14 @@ def test_arrow_keys_stay_in_their_question_and_escape_leads_back_to_its_cell(
     page.keyboard.press("Control+Enter")
     page.get_by_text("NameError: name 'lab' is not defined").wait_for()
     unrun = page.locator(".course-unrun .jp-OutputArea")
-    advice = unrun.evaluate("output => getComputedStyle(output, '::after').content")
-    assert "run that cell first" in advice
+    shown_advice = "outputs => outputs.map(output => getComputedStyle(output, '::after').content)"
+    assert "run that cell first" in unrun.evaluate_all(shown_advice)[0]
+    page.keyboard.press("Control+a")
+    page.keyboard.press("b")
+    page.keyboard.press("Enter")
+    page.keyboard.type("%%gap march.py")
+    page.keyboard.press("Control+Enter")
+    expect(unrun).to_have_count(2)
 
 
 def test_a_self_check_and_submit_save_the_notebook_that_they_read(

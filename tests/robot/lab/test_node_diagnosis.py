@@ -164,6 +164,16 @@ def test_a_wait_that_fails_says_what_the_node_did(kernel: Kernel) -> None:
     assert "status.py has ended with exit status 1: ValueError: no." in error
 
 
+def test_what_is_still_to_be_written_is_said_before_the_wait(kernel: Kernel) -> None:
+    printed = kernel.run("""
+from pathlib import Path
+text = Path("adder.py").read_text()
+Path("unwritten.py").write_text(text + "\\n\\ndef later():\\n    # YOUR CODE HERE\\n    return None\\n")
+lab.run_node("unwritten.py").stop()
+""")
+    assert "unwritten.py is as the starter leaves it below `# YOUR CODE HERE` in line" in printed
+
+
 def test_a_wait_that_fails_says_that_the_robot_lies(kernel: Kernel) -> None:
     kernel.run("from std_msgs.msg import Bool\nlab.start_robot()")
     try:
