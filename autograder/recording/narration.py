@@ -126,7 +126,8 @@ def _of_interfaces(event: Any) -> tuple[int, str] | None:
         case ev.ResultForgotten(goal=goal):
             return INFO, f"the grader's server drops the result of “{goal}”"
         case ev.Unanswered(what=what, id=name, waited=waited):
-            return WARN, f"no response to the {what} “{name}” within {waited:.1f} s"
+            within = f" within {waited:.1f} s" if waited >= 0.05 else ""  # after the program's end
+            return WARN, f"no response to the {what} “{name}”{within}"
     return None
 
 

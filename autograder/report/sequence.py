@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import groupby
+from typing import Any
 
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
@@ -36,25 +38,34 @@ def has_messages(transcript: Transcript) -> bool:
 
 
 def _messages(transcript: Transcript) -> Iterator[Arrow]:
-    feedback: list[Feedback] = []
-    for event in transcript.events:
-        if isinstance(event, Feedback):
-            feedback.append(event)
-            continue
-        arrow = _arrow(event)
-        if arrow:
-            yield from _collapsed(feedback)
-            feedback = []
-            yield arrow
-    yield from _collapsed(feedback)
+    drawn = [event for event in transcript.events if isinstance(event, Feedback) or _arrow(event)]
+    for kind, group in groupby(drawn, _kind):
+        events: list[Any] = list(group)
+        if kind is Feedback:
+            yield _feedback(events)
+        elif kind is ev.Unanswered:
+            yield _unanswered(events)
+        else:
+            yield from filter(None, map(_arrow, events))
 
 
-def _collapsed(feedback: Sequence[Feedback]) -> Iterator[Arrow]:
-    if not feedback:
-        return
-    first, last = feedback[0], feedback[-1]
-    rate = f" at {(len(feedback) - 1) / (last.t - first.t):.1f} Hz" if last.t > first.t else ""
-    yield Arrow(first.t, SERVER, CLIENT, f"feedback × {len(feedback)}{rate}", "message")
+def _kind(event: Any) -> Any:
+    """Return the kind of which consecutive events are drawn as one arrow; None for events of their own."""
+    return next((kind for kind in (Feedback, ev.Unanswered) if isinstance(event, kind)), None)
+
+
+def _feedback(received: Sequence[Feedback]) -> Arrow:
+    first, last = received[0], received[-1]
+    rate = f" at {(len(received) - 1) / (last.t - first.t):.1f} Hz" if last.t > first.t else ""
+    return Arrow(first.t, SERVER, CLIENT, f"feedback × {len(received)}{rate}", "message")
+
+
+def _unanswered(given_up: Sequence[ev.Unanswered]) -> Arrow:
+    """Draw requests that were given up one after the other, as after the program's end, when only the first waits."""
+    what, number = given_up[0].what, len(given_up)
+    requests = f"the {what}" if number == 1 else f"{number} {what}s"
+    waited = max(event.waited for event in given_up)
+    return Arrow(given_up[0].t, CLIENT, CLIENT, f"no answer to {requests} after {waited:.1f} s")
 
 
 def _arrow(event: object) -> Arrow | None:
@@ -100,8 +111,8 @@ def _arrow(event: object) -> Arrow | None:
             return Arrow(t, CLIENT, CLIENT, "stdin ends" if line is None else f"typed: {line}")
         case ev.ResultReceived(t=t, goal=goal, status=status):
             return Arrow(t, SERVER, CLIENT, f"result “{goal}”: {name_of(GoalStatus, status)}", "answer")
-        case ev.Unanswered(t=t, what=what, waited=waited):
-            return Arrow(t, CLIENT, CLIENT, f"no answer to the {what} after {waited:.1f} s")
+        case ev.Unanswered():
+            return _unanswered([event])
         case ev.RobotCommanded(t=t, verb=verb):
             return Arrow(t, ROBOT, ROBOT, f"the grader: {verb}")
     return None

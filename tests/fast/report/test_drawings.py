@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 
 from geometry_msgs.msg import PoseStamped
+from std_srvs.srv import Empty
 
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.classroom.pages.drawings import Drawings, drawing_into
 from autograder.classroom.pages.plots import motion_svgs
 from autograder.engine.verdict import CheckVerdict, Grade
+from autograder.report.sequence import transcript_svg
 from humanoid_interfaces.action import WalkTo
 from humanoid_interfaces.msg import RobotState
 from records import robot
@@ -91,3 +93,17 @@ def test_a_plot_has_the_same_bytes_each_time_and_shows_any_text_as_it_is():
     first, second = (motion_svgs(walk(scenario="$x$ <b>"), "$\\frac{ <b>") for _ in range(2))
     assert first == second
     assert "$\\frac{ &lt;b&gt;" in first[0]
+
+
+def test_requests_that_end_with_the_program_are_one_line() -> None:
+    waits = (1.5, 0.0, 0.0)
+    calls = [
+        ev.ServiceCalled(t=1.0, call=f"ask {n}", service="ask", request=Empty.Request()) for n in range(3)
+    ]
+    ends = [
+        ev.Unanswered(t=2.5 + wait / 100, what="call", id=f"ask {n}", waited=wait)
+        for n, wait in enumerate(waits)
+    ]
+    drawn = transcript_svg(Transcript.from_events("in_order", {}, [*calls, *ends]), "in order")
+    assert drawn.count("ask?") == 3
+    assert drawn.count("no answer to 3 calls after 1.5 s") == 1
