@@ -105,5 +105,5 @@ def test_requests_that_end_with_the_program_are_one_line() -> None:
         for n, wait in enumerate(waits)
     ]
     drawn = transcript_svg(Transcript.from_events("in_order", {}, [*calls, *ends]), "in order")
-    assert drawn.count("ask?") == 3
-    assert drawn.count("no answer to 3 calls after 1.5 s") == 1
+    assert drawn.count(">ask?</text>") == 3
+    assert drawn.count(">no answer to 3 calls after 1.5 s</text>") == drawn.count(">no answer") == 1
