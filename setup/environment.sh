@@ -89,7 +89,7 @@ install_everything() {
 # Arenas start hundreds of Python processes that must not write files; without compiled files each start takes twice as
 # long. A file that cannot be compiled (a template, an old test) is ignored.
 compile_bytecode() {
-    begin "compiling the Python files"
+    begin "compiling the Python files (about 10 s, longer on a busy machine)"
     local packages=("$root"/{autograder,course_cli,lab,robot_sim,ros_cli,ros_runtime})
     logged env -u PYTHONDONTWRITEBYTECODE "$venv/bin/python" -m compileall -q -j 0 "$venv/lib" "${packages[@]}" || true
 }
@@ -129,7 +129,7 @@ install_with_pip() {
     logged "${pip[@]}" "${isolation[@]}" --editable "$root[$1]"
 }
 
-# Run a command with its output in the log, and show which step goes on: in a terminal a clock, elsewhere a line every 10 s.
+# Run a command with its output in the log, and show which step goes on: in a terminal a clock, elsewhere a line every 5 s.
 logged() {
     local ticker status=0 beats=0 terminal=
     [ -t 2 ] && terminal=yes
@@ -137,7 +137,7 @@ logged() {
     while sleep 1 >/dev/null 2>&1 && kill -0 $$ 2>/dev/null; do
         if [ -n "$terminal" ]; then
             printf '\r%d s ' $((SECONDS - started)) >&2
-        elif [ $((++beats % 10)) = 0 ]; then
+        elif [ $((++beats % 5)) = 0 ]; then
             say "still $step ($((SECONDS - started)) s since the beginning)"
         fi
     done 9>&- &
