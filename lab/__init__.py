@@ -38,7 +38,6 @@ from lab.learning.prediction import Prediction, predict
 from lab.learning.progress_table import show_progress
 from lab.learning.quiz import Quiz, quiz
 from lab.pictures.diagram import draw_sequence
-from lab.pictures.film import film_robot
 from lab.pictures.film_beside import film_beside
 from lab.pictures.film_from_above import film_from_above
 from lab.pictures.gates import draw_gates

@@ -1,11 +1,10 @@
-"""Makes films of the robot, which are stored in the notebook: live, or from recorded messages."""
+"""Makes films of the robot from recorded messages, which are stored in the notebook."""
 
 from __future__ import annotations
 
 import io
 import math
-import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -18,9 +17,8 @@ from nav_msgs.msg import Odometry
 from PIL import Image
 from sensor_msgs.msg import JointState
 
-from lab.client import topics
 from lab.pictures.labels import Mark
-from lab.pictures.picture import HEIGHT, WIDTH, as_mujoco, body_to_draw, figure, set_current_posture
+from lab.pictures.picture import HEIGHT, WIDTH, as_mujoco, body_to_draw, figure
 from robot_sim.humanoid import Humanoid
 from robot_sim.views.film import save_frames
 from robot_sim.views.view import View
@@ -34,32 +32,7 @@ MAX_DURATION = 60.0  # s; such a film takes about 5 MB in the notebook
 DRAWING = "The film is being drawn, which takes some seconds, on a busy machine longer."
 
 
-def film_robot(seconds: float = 5.0, file: str | Path | None = None, *, camera: str = "track") -> HTML:
-    """Film the robot for `seconds` from now on, drawn from its own messages; also write the film to `file`, a .webp.
-
-    The call blocks until the film ends. Its first frame is one or two seconds after the call, so start a long motion
-    before it. For a short event, such as a fall, use `record_robot()` and then the recording's `film()`. Without OpenGL
-    you get the caption of the film and the reason why there is none.
-
-    Raises:
-        NoRobotError: no robot is running.
-        ValueError: the duration is not between 0 and 60 s, or there is no such camera.
-    """
-    words = f"The robot for {seconds:g} s, from {topics.pose()}"
-
-    def postures(body: Humanoid) -> Iterator[None]:
-        began = time.monotonic()
-        for frame in range(_frames(seconds)):
-            time.sleep(max(0.0, began + frame / RATE - time.monotonic()))
-            set_current_posture(body)
-            yield
-
-    with notice(
-        f"The robot is being filmed for {seconds:g} s. Before and after that the film takes a few seconds."
-    ):
-        return _film(postures, words, lambda: f"{words}; at the end {topics.whereabouts()}", camera, file)
-
-
+@notice(DRAWING)
 def film_of_messages(
     odometry: Sequence[tuple[float, Odometry]],
     joints: Sequence[tuple[float, JointState]],
@@ -78,7 +51,10 @@ def film_of_messages(
 
     Raises ValueError when the film would last longer than 60 s, or there is no such camera.
     """
-    count = _frames(seconds * slow_motion)
+    lasts = seconds * slow_motion
+    if not 0 < lasts <= MAX_DURATION:
+        raise ValueError(f"the film would last {lasts:g} s; expected more than 0, at most {MAX_DURATION:g}")
+    count = max(1, round(lasts * RATE))
     words = f"The robot{''.join(f' and the {name}' for name in objects)} for {seconds:.1f} s"
     if slow_motion != 1.0:
         words += f", slowed down {slow_motion:g} times"
@@ -86,10 +62,25 @@ def film_of_messages(
         words += f" ({', '.join(f'{mark.label} at {mark.time:.1f} s' for mark in marks)})"
     words += f"; {_in_the_end(odometry, joints)}"
 
-    def postures(body: Humanoid) -> Iterator[None]:
+    body = body_to_draw(robot)
+
+    def postures() -> Iterator[None]:
         return set_postures(body, np.arange(count) / RATE / slow_motion, odometry, joints, objects)
 
-    return _film(postures, words, lambda: words, camera, file, robot, fitted=True)
+    try:
+        view = View(body, WIDTH, HEIGHT, shadows=False)
+    except NoOpenGLError as error:
+        return HTML(f"<p>{escape(words)}. No film: {escape(str(error))}</p>")
+    try:
+        view.fit(camera, postures())
+        frames = [Image.fromarray(view.picture(camera)) for _ in postures()]
+    finally:
+        view.close()
+    webp = io.BytesIO()
+    save_frames(webp, frames, "WEBP", RATE)
+    if file is not None:
+        Path(file).write_bytes(webp.getvalue())
+    return figure(webp.getvalue(), "webp", words, words)
 
 
 def _in_the_end(
@@ -128,42 +119,6 @@ def set_postures(
             body.data.joint(name).qpos[:] = places_of_it[frame]
         mujoco.mj_forward(body.model, body.data)  # which also makes the quaternion a unit again
         yield
-
-
-def _frames(seconds: float) -> int:
-    if not 0 < seconds <= MAX_DURATION:
-        raise ValueError(f"the film would last {seconds:g} s; expected more than 0, at most {MAX_DURATION:g}")
-    return max(1, round(seconds * RATE))
-
-
-@notice(DRAWING)
-def _film(
-    postures: Callable[[Humanoid], Iterator[None]],
-    words: str,
-    caption: Callable[[], str],
-    camera: str,
-    file: str | Path | None,
-    robot: str = "",
-    *,
-    fitted: bool = False,
-) -> HTML:
-    """Draw a frame for each posture, `fitted` to all of them; `caption` is called after the last frame."""
-    body = body_to_draw(robot)
-    try:
-        view = View(body, WIDTH, HEIGHT, shadows=False)
-    except NoOpenGLError as error:
-        return HTML(f"<p>{escape(words)}. No film: {escape(str(error))}</p>")
-    try:
-        if fitted:
-            view.fit(camera, postures(body))
-        frames = [Image.fromarray(view.picture(camera)) for _ in postures(body)]
-    finally:
-        view.close()
-    webp = io.BytesIO()
-    save_frames(webp, frames, "WEBP", RATE)
-    if file is not None:
-        Path(file).write_bytes(webp.getvalue())
-    return figure(webp.getvalue(), "webp", words, caption())
 
 
 def _interpolated(at: np.ndarray, samples: Sequence[tuple[float, Any]]) -> np.ndarray:

@@ -52,9 +52,12 @@ def test_a_recording_spans_the_whole_block(recorded: Kernel) -> None:
 
 
 def test_its_film_is_drawn_afterwards(recorded: Kernel) -> None:
-    html = recorded.run("print(recording.film('fall.webp', camera='side', slow_motion=2).data)")
+    html = recorded.run("""
+        from pathlib import Path
+        print(recording.film('fall.webp', camera='side', slow_motion=2).data, Path('fall.webp').is_file())
+    """)
     assert "slowed down 2 times" in html
-    assert "data:image/webp" in html or "No film: no OpenGL" in html
+    assert ("data:image/webp" in html and html.endswith(" True\n")) or "No film: no OpenGL" in html
 
 
 def test_a_time_line_shows_the_server_and_its_end(recorded: Kernel) -> None:
