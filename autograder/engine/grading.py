@@ -14,7 +14,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass, replace
 
 from autograder.authoring.checks import Check, Scenario
-from autograder.authoring.diagnosis.exit_diagnosis import is_not_python
+from autograder.authoring.diagnosis.exit_diagnosis import is_not_python, ran_to_its_end
 from autograder.authoring.diagnosis.root_cause import why_the_robot_was_held_up
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.authoring.sequence import STEPS, steps_until
@@ -267,8 +267,11 @@ class _Session:
             is_last_attempt=attempt + 1 >= MOST_ATTEMPTS["error"],
             others_failed=any(other.status == "failed" for other in self._verdicts.values()),
         )
+        is_fixed = any(map(is_not_python, transcripts)) or (
+            all(map(ran_to_its_end, transcripts)) and not any(scenario.timed for scenario in check.on)
+        )  # another run cannot differ
         no_retry = verdict.status in ("failed", "not run") and (
-            check.id in self._options.checks_without_retry or any(map(is_not_python, transcripts))
+            check.id in self._options.checks_without_retry or is_fixed
         )
         if verdict.status != "passed" and not no_retry:
             again = failed_scenarios(check, transcripts)

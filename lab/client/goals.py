@@ -44,7 +44,9 @@ def send_goal(action: str, action_type: Any, goal: Any, *, timeout: float = 5.0)
     )
     require_server(lambda: not client.unmatched(here.node.count_publishers), action, action_type, timeout)
     sent = client.send(goal)
-    if not sent.wait_for_answer(timeout):
+    with notice(f"This waits up to {timeout:g} s until {action} accepts or rejects the goal."):
+        is_answered = sent.wait_for_answer(timeout)
+    if not is_answered:
         raise give_up(
             sent,
             timeout,
@@ -126,7 +128,10 @@ class Goal:
             NoAnswerError: the server has not answered in time.
         """
         request = self._sent.cancel()
-        request.wait(timeout)
+        with notice(
+            f"This waits up to {timeout:g} s for the answer of {self._action} to the cancel request."
+        ):
+            request.wait(timeout)
         if request.answer is None:
             raise give_up(
                 request,

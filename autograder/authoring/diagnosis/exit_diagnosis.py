@@ -19,6 +19,7 @@ CRASHES = "02_services#m9-why"
 OWN_FILE = re.compile(r"/work(?:-[^/]+)?/(\w+\.py)$")  # the folder in which a student's program runs
 # The same folder, before the file's name in a traceback.
 SANDBOX_FOLDER = re.compile(r'(?<=File ")[^"]*/work(?:-[^/"]+)?/(?=\w+\.py")')
+_OF_THE_PROGRAM = re.compile(r"(Attribute|Index|Key|Name|Type|UnboundLocal|Value|ZeroDivision)Error\b")
 _NOT_PYTHON = re.compile(r"(IndentationError|SyntaxError|TabError)\b")
 _CRASHED = (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS)
 
@@ -155,6 +156,12 @@ def is_not_python(run: Record) -> bool:
     # Of an import or of exec() there is a traceback.
     is_the_program = "Traceback (most recent call last)" not in run.output("stderr")
     return bool(exited and exited.returncode and is_the_program and _NOT_PYTHON.match(run.last_words))
+
+
+def ran_to_its_end(run: Record) -> bool:
+    """Return whether the program ended by itself with status 0, or with an exception that no machine causes."""
+    exited = ended_by_itself(run)
+    return exited is not None and (exited.returncode == 0 or bool(_OF_THE_PROGRAM.match(run.last_words)))
 
 
 def remedy_for_the_end(run: Record, exited: ev.NodeExited) -> Remedy:

@@ -2,6 +2,7 @@
 
 import pytest
 
+from autograder.authoring.diagnosis.exit_diagnosis import ran_to_its_end
 from autograder.authoring.evidence import events as ev
 from autograder.authoring.evidence.transcript import Transcript
 from autograder.engine.exercise import load_exercise
@@ -100,3 +101,10 @@ def test_a_missing_comma_is_named_and_the_log_shows_the_students_own_file():
     assert "Look for a missing comma" in verdict.help
     assert '  File "patterns.py", line 9, in <module>' in verdict.log
     assert "/tmp/work" not in verdict.log
+
+
+@pytest.mark.parametrize(
+    ("last_line", "is_fixed"), [("ValueError: too many values to unpack", True), ("MemoryError", False)]
+)
+def test_a_program_without_deadlines_is_run_again_only_if_the_machine_may_have_ended_it(last_line, is_fixed):
+    assert ran_to_its_end(run_with_status_1("Traceback (most recent call last):", last_line)) is is_fixed
