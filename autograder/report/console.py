@@ -31,7 +31,10 @@ class LineConsole(Console):
         super().__init__(**{"highlight": False, "width": FILE_WIDTH if is_file else None, **settings})
 
     def print(self, *objects: Any, **settings: Any) -> None:
-        """Print texts, whose lines are broken between words, and other objects at the console's width."""
+        """Print texts, whose lines are broken between words, and other objects at the console's width.
+
+        In a file, the lines of other objects have no blanks at their ends.
+        """
         is_text = all(isinstance(each, str | Text) for each in objects)
         if objects and is_text and is_terminal(self.file):
             markup = settings.pop("markup", None)
@@ -39,7 +42,12 @@ class LineConsole(Console):
                 self.render_str(each, markup=markup) if isinstance(each, str) else each for each in objects
             ]
             objects = (wrapped(Text(" ").join(texts), self.width),)
-        super().print(*objects, **{"soft_wrap": is_text, **settings})
+        if is_text or self.is_terminal:
+            super().print(*objects, **{"soft_wrap": is_text, **settings})
+            return
+        with self.capture() as captured:
+            super().print(*objects, **settings)
+        print(re.sub(r" +$", "", captured.get(), flags=re.MULTILINE), end="", file=self.file)
 
 
 def wrapped(text: Text, width: int) -> Text:

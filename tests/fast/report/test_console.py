@@ -25,7 +25,9 @@ def test_a_table_has_the_width_of_the_console() -> None:
     table = Table.grid()
     table.add_row("word " * 40)
     console.print(table)
-    assert max(map(len, console.file.getvalue().splitlines())) <= 80  # type: ignore[attr-defined]
+    lines = console.file.getvalue().splitlines()  # type: ignore[attr-defined]
+    assert max(map(len, lines)) <= 80
+    assert [line for line in lines if line.endswith(" ")] == []
 
 
 class Terminal(io.StringIO):
