@@ -49,7 +49,7 @@ def saved_work_warning(exercise: str, program: str, folder: Path = Path()) -> st
 def next_step(grade: Grade, offers_it: bool = True, file: Path | None = None) -> str:
     """Return what to do after a graded self-check of `file` (None: the default one).
 
-    With `offers_it` that includes to hand in a program that does not pass every check.
+    `offers_it`: whether to offer handing in a program that fails a check.
     """
     submit = as_typed(f"submit {grade.exercise}" + (f" --file {file}" if file else ""))
     if grade.all_passed:

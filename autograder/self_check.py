@@ -223,7 +223,7 @@ def _with_notebook(path: Path, exercise: str) -> tuple[Submission, Path]:
 
 
 def _in_words_of(path: Path, exercise: Exercise, verdict: CheckVerdict) -> CheckVerdict:
-    """Return a verdict with the name of the checked program, if it is another than that under which it runs."""
+    """Return a verdict that names the checked file, which may run under another name."""
     if path.suffix != ".py" or path.name in exercise.file_names:
         return verdict
     name = exercise.file_names[0]

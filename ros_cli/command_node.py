@@ -110,7 +110,7 @@ class CommandNode:
         return True
 
     def is_beside_others(self) -> bool:
-        """Whether the graph has another node than this one."""
+        """Return whether the graph has any other node."""
         return len(self.node_names(hidden=True)) > 1
 
     def node_names(self, *, hidden: bool = False) -> list[str]:

@@ -26,7 +26,7 @@ def print_message(message: object) -> None:
 
 
 @contextmanager
-def passing_message(text: str) -> Iterator[None]:
+def transient_message(text: str) -> Iterator[None]:
     """In a terminal, show a text on stderr while the `with` block runs."""
     if not is_terminal(sys.stderr):
         yield

@@ -9,7 +9,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
 from ros_cli.command_node import SPIN_TIME, CommandNode
-from ros_cli.errors import passing_message, print_message
+from ros_cli.errors import print_message, transient_message
 from ros_runtime import notebook_domains
 
 Verbs = Any  # what ArgumentParser.add_subparsers() returns; argparse keeps its class private
@@ -45,7 +45,7 @@ def add_list_verb(
     """
 
     def print_list(options: Namespace) -> None:
-        with passing_message("discovering nodes …"), CommandNode(options.spin_time) as command:
+        with transient_message("discovering nodes …"), CommandNode(options.spin_time) as command:
             command.discover(command.is_beside_others)
             found, is_alone = names(command, options), not command.is_beside_others()
         if is_alone:

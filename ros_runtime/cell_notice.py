@@ -22,7 +22,7 @@ _only_one = threading.Lock()  # of a step and its parts, the step says what goes
 class CellNotice:
     """A text below the running cell and how long it has been shown, in s; the end of the `with` block removes it.
 
-    It appears if the block takes longer than `delay` s, else DELAY. It is not printed, so nothing that reads the cell's
+    It appears once the block has taken `delay` s (default: DELAY). It is not printed, so nothing that reads the cell's
     output receives it. Outside a notebook, and in threads that the cell has started, nothing is shown.
     """
 

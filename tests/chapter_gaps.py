@@ -1,4 +1,4 @@
-"""Finds the gaps in a chapter, for the tests of their form and those that fill them."""
+"""Finds the gaps in a chapter, for tests of their form and tests that fill them."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ def _messages(transcript: Transcript) -> Iterator[Arrow]:
 
 
 def _kind(event: Any) -> Any:
-    """Return the kind of which consecutive events are drawn as one arrow; None for events of their own."""
+    """Return the kind of an event if consecutive events of that kind are drawn as one arrow, else None."""
     return next((kind for kind in (Feedback, ev.Unanswered) if isinstance(event, kind)), None)
 
 
@@ -61,7 +61,7 @@ def _feedback(received: Sequence[Feedback]) -> Arrow:
 
 
 def _unanswered(given_up: Sequence[ev.Unanswered]) -> Arrow:
-    """Draw requests that were given up one after the other, as after the program's end, when only the first waits."""
+    """Draw consecutive unanswered requests as one arrow; when the program has ended, only the first one waited."""
     what, number = given_up[0].what, len(given_up)
     requests = f"the {what}" if number == 1 else f"{number} {what}s"
     waited = max(event.waited for event in given_up)

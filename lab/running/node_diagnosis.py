@@ -124,11 +124,9 @@ def why_silent(server: StudentNode) -> str:
 def why_unfinished(server: StudentNode, goal: str) -> str:
     """Return why a goal that a running server has accepted has no result yet; "" if it is not in the log any more."""
     sent = log.first(ev.GoalSent, goal=goal)
-    return (
-        with_code_of(server.file, why_no_result(_record(server, _stack(server)).goal(goal))[1])
-        if sent
-        else ""
-    )
+    if not sent:
+        return ""
+    return with_code_of(server.file, why_no_result(_record(server, _stack(server)).goal(goal))[1])
 
 
 def why_aborted(nodes: Iterable[StudentNode], action: str, goal: str) -> str:

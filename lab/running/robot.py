@@ -119,7 +119,7 @@ def stop_robot() -> None:
 
 
 def end_robot() -> None:
-    """Stop the robot's process, without a word."""
+    """Stop the robot's process and print nothing."""
     global _robot
     forget_node(ROBOT_NODE)
     if _robot is not None:
