@@ -18,7 +18,7 @@ from autograder.authoring.diagnosis.missing_comma import with_comma
 from autograder.authoring.diagnosis.service_callback import with_callback
 from autograder.authoring.diagnosis.stack_location import with_code
 from autograder.authoring.evidence.transcript import Transcript
-from autograder.engine.exercise import Exercise, file_names, load_exercise
+from autograder.engine.exercise import Exercise, file_names, load_exercise, submission_names
 from autograder.engine.grading import GradingOptions, Watcher, grade
 from autograder.engine.starter import is_starter, what_is_to_be_written
 from autograder.engine.submission import Submission, place_of_work, read_submission
@@ -129,7 +129,7 @@ def check_and_keep(console: Console, path: Path, exercise: str, **options: Any) 
     result = check_with_progress(console, path, exercise, **options)
     if result.status == "graded" and not options.get("robot"):
         passed = sum(check.status == "passed" for check in result.checks)
-        is_own = path.is_dir() or path.name in (f"{exercise}.ipynb", *file_names(exercise))
+        is_own = path.is_dir() or path.name in submission_names(exercise)
         store_check(exercise, passed, len(result.checks), result.program, for_its_row=is_own)
     return result
 

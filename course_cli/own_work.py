@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from autograder.engine.exercise import exercise_names, file_names
+from autograder.engine.exercise import exercise_names, submission_names
 from autograder.engine.hand_in import MOST_FOLDERS, PROGRAMS_DIFFER, work_in
 from autograder.engine.submission import UnusableSubmission
 from ros_runtime.project import COURSE, WORK
@@ -22,7 +22,7 @@ def own_work(exercise: str, file: Path | None, naming: str = "check {} FILE") ->
     """
     if file and not file.is_dir():
         for other in exercise_names():
-            if other != exercise and file.name in (f"{other}.ipynb", *file_names(other)):
+            if other != exercise and file.name in submission_names(other):
                 wanted = as_typed(naming.format(other).replace("FILE", str(file)))
                 raise UnusableSubmission(
                     f"{file} is a file of {other}: {wanted}, or give the file another name"
@@ -43,7 +43,7 @@ def own_work(exercise: str, file: Path | None, naming: str = "check {} FILE") ->
             advice = ": its %%writefile cell was changed and not run since. Run it, and check"
             advice *= path.suffix == ".ipynb"
             return path, [line + advice * line.endswith(PROGRAMS_DIFFER) for line in left_aside]
-    names = ", ".join([f"{exercise}.ipynb", *file_names(exercise)])
+    names = ", ".join(submission_names(exercise))
     folders = str(file) if file else f"this folder and {in_course}"
     raise UnusableSubmission(
         f"found none of {names} in {folders}; name your file: {as_typed(naming.format(exercise))}"

@@ -118,6 +118,11 @@ def file_names(exercise: str) -> tuple[str, ...]:
     return getattr(exercise_module(exercise), "FILES", (f"{exercise}.py",))
 
 
+def submission_names(exercise: str) -> tuple[str, ...]:
+    """Return the names under which an exercise's work is looked for: its notebook, then its files."""
+    return (f"{exercise}.ipynb", *file_names(exercise))
+
+
 def scenario_file(exercise: str) -> Path:
     """Return where an exercise's scenarios are, if there is such an exercise."""
     return exercises_folder() / exercise / SCENARIO_FILE

@@ -9,7 +9,7 @@ from pathlib import Path
 from autograder.atomic_file import write_atomically
 from autograder.classroom.collect.choice import Choice
 from autograder.classroom.collect.download import Refused
-from autograder.engine.exercise import file_names
+from autograder.engine.exercise import submission_names
 from autograder.engine.submission import most_bytes
 
 TIMESTAMP = "timestamp.txt"
@@ -52,7 +52,7 @@ def place(choice: Choice, out: Path, *, overwrite: bool) -> Placed:
 
 def _existing_files(folder: Path, exercise: str) -> dict[str, bytes | None]:
     """Return the content of the files that a grader would read in the folder; None for a link or a folder."""
-    places = [folder / name for name in (f"{exercise}.ipynb", *file_names(exercise))]
+    places = [folder / name for name in submission_names(exercise)]
     return {
         path.name: path.read_bytes() if path.is_file() and not path.is_symlink() else None
         for path in places

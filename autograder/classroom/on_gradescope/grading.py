@@ -10,7 +10,7 @@ from autograder.classroom.batch.grades_without_run import unreadable
 from autograder.classroom.export.gradescope import Results, render
 from autograder.classroom.export.published import NOT_GRADED, Options
 from autograder.classroom.on_gradescope.container import Container
-from autograder.engine.exercise import Exercise, file_names, load_exercise
+from autograder.engine.exercise import Exercise, load_exercise, submission_names
 from autograder.engine.grading import GradingOptions, grade
 from autograder.engine.submission import UnusableSubmission
 from autograder.engine.verdict import Grade
@@ -43,7 +43,7 @@ def grade_upload(container: Container, exercise: str, isolation: Isolation) -> R
 def _grade(work: Work | None, exercise: Exercise, isolation: Isolation) -> Grade:
     try:
         if work is None:
-            names = " nor ".join([f"{exercise.name}.ipynb", *file_names(exercise.name)])
+            names = " nor ".join(submission_names(exercise.name))
             raise UnusableSubmission(f"the upload holds neither {names}")
         submission = work.read()
     except UnusableSubmission as error:
